@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace yade::mpm {
+
+using Column  = std::vector<double>;
+using Columns = std::vector<Column>; // one column a component
+
+/* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
+
+Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
+thicknessStretch (no thinning), fixed (no prescribed motion). */
+struct Points {
+	std::vector<int>          id;                             // of the point: its body's, or negative where it has none
+	std::vector<int>          material;                       // index into the scene's table of laws
+	Column                    mass, volume0;                  // [kg], [m3] undeformed
+	Column                    size, thickness;                // lattice spacing [m]; thickness [m] of a plane point, 0 of a 3D one
+	Columns                   position { 3 }, velocity { 3 }; // all three axes, whatever the analysis
+	Columns                   stress, internal, deformation;  // deformation: F, row-major
+	Columns                   advance;                        // displacement of the current step, not yet in position while its stress update is pending
+	Columns                   force;                          // external, but for gravity [N]
+	Column                    thicknessStretch;               // F_zz of thinning plane stress
+	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
+
+	std::size_t count() const { return id.size(); }
+
+	/* Every column of doubles, for what treats them alike: sorting, erasing, saving. */
+	template <class Visitor> void forEachColumn(Visitor&& visit)
+	{
+		for (Column* c : { &mass, &volume0, &size, &thickness })
+			visit(*c);
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &advance, &force })
+			for (Column& c : *cs)
+				visit(c);
+		visit(thicknessStretch);
+	}
+	template <class Visitor> void forEachIndexColumn(Visitor&& visit)
+	{
+		visit(id);
+		visit(material);
+		visit(fixed);
+	}
+
+	/* Adds an undeformed, stress-free point; prepare() gives it the columns that the analysis needs. */
+	void append(int id_, int material_, const double* x, const double* v, double mass_, double volume_, double size_, double thickness_)
+	{
+		id.push_back(id_), material.push_back(material_);
+		mass.push_back(mass_), volume0.push_back(volume_), size.push_back(size_), thickness.push_back(thickness_);
+		for (int d = 0; d < 3; ++d)
+			position[d].push_back(x[d]), velocity[d].push_back(v[d]);
+	}
+	/* Gives every point the columns of an analysis: dim axes, stresses of the given number of components, internal
+	variables, and where asked for the thickness stretch and the external forces. New entries are those of a point at rest. */
+	void prepare(int dim, int components, int internals, bool thinning, bool forces)
+	{
+		const std::size_t n     = count();
+		auto              shape = [n](Columns& columns, int number, auto&& initial) {
+                        columns.resize(std::size_t(number));
+                        for (int k = 0; k < number; ++k)
+                                columns[std::size_t(k)].resize(n, initial(k));
+		};
+		auto zero = [](int) { return 0.; };
+		shape(stress, components, zero), shape(internal, internals, zero), shape(advance, dim, zero);
+		shape(deformation, dim * dim, [dim](int k) { return k % (dim + 1) == 0 ? 1. : 0.; });
+		shape(force, forces ? dim : 0, zero);
+		thicknessStretch.resize(thinning ? n : 0, 1.);
+		if (!fixed.empty()) fixed.resize(n, 0);
+	}
+
+	/* Keeps the points order[0], order[1], ... in this order and drops the others. */
+	void select(const std::vector<std::size_t>& order)
+	{
+		auto gather = [&](auto& column) {
+			if (column.empty()) return;
+			std::remove_reference_t<decltype(column)> kept(order.size());
+			for (std::size_t k = 0; k < order.size(); ++k)
+				kept[k] = column[order[k]];
+			column.swap(kept);
+		};
+		forEachColumn(gather);
+		forEachIndexColumn(gather);
+	}
+};
+
+} // namespace yade::mpm

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Geometry.hpp"
+#include "Law.hpp"
+#include "Points.hpp"
+#include <memory>
+
+namespace yade::mpm {
+
+enum class Analysis { uniaxial, planeStress, planeStrain, solid };
+enum class ShapeKind { linear, gimp, quadratic, cubic };
+
+/* When the stress is updated (doc/method.md): from the velocities at the start of the step (USF), from the updated nodal
+velocities (USL), or from those mapped once more from the points (MUSL; Sulsky, Zhou & Schreyer, CPC 87 (1995) 236). */
+enum class Scheme { usf, usl, musl };
+
+struct StepControl {
+	double                dt = 0, time = 0;
+	std::array<double, 3> gravity { 0, 0, 0 };
+	double                damping     = 0; // Cundall's, non-viscous, on the nodes
+	double                flip        = 1; // 1: pure FLIP, 0: pure PIC
+	Scheme                scheme      = Scheme::musl;
+	bool                  largeStrain = true;
+	bool                  thinning    = false; // plane stress: the thickness follows the strain
+	int                   threads     = 1;
+};
+
+/* A step that cannot go on: which point, where and why. */
+class StepFailure : public std::runtime_error {
+public:
+	StepFailure(const std::string& what, int pointId)
+	    : std::runtime_error(what)
+	    , id(pointId)
+	{
+	}
+	const int id;
+};
+
+/* Explicit material point method on the points of one scene: momentum on the grid, stress at the points.
+
+The stress update of a step shares a pass over the points with the transfer that begins the next one; finish() carries
+it out at once, for whoever wants to look at, save or change the points between two steps. */
+class Solver {
+public:
+	virtual ~Solver() = default;
+
+	virtual void step(const StepControl& control) = 0;
+	virtual void finish()                         = 0;
+	/* The points' number, order, position or velocity have been changed from outside (after finish()). */
+	virtual void pointsChanged() = 0;
+	/* Largest stable step for the points as they stand [s]: from the greatest eigenvalue of the discrete operator with
+	elastic stiffness, and from the fastest point, which must not cross a cell in a step. */
+	virtual double criticalTimeStep(Scheme scheme) = 0;
+	/* Bytes held by the grid. */
+	virtual std::size_t gridBytes() const = 0;
+
+	virtual Analysis analysis() const   = 0;
+	virtual int      components() const = 0; // of a stress
+};
+
+int dimension(Analysis analysis);
+int stressComponents(Analysis analysis);
+
+/* points, laws and walls stay the caller's and are read anew each step; walls' forces are written. */
+std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double cellSize, Points& points, const std::vector<Law>& laws, std::vector<Wall>& walls);
+
+} // namespace yade::mpm
