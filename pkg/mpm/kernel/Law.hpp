@@ -2,34 +2,68 @@
 #pragma once
 
 #include "BoucWen.hpp"
+#include "DruckerPrager.hpp"
+#include "J2.hpp"
+#include <string>
 
 namespace yade::mpm {
 
 /* A material as the kernel sees it: which law, and the parameters of that law. */
 struct Law {
-	enum class Kind { elastic, boucWen };
-	Kind              kind    = Kind::elastic;
-	double            density = 0;
-	Hooke             elastic;
-	BoucWenParameters boucWen;
+	enum class Kind { elastic, boucWen, j2, druckerPrager };
+	Kind                    kind    = Kind::elastic;
+	double                  density = 0;
+	Hooke                   elastic;
+	BoucWenParameters       boucWen;
+	J2Parameters            j2;
+	DruckerPragerParameters druckerPrager;
 
 	/* Factor on D that bounds the law's tangent; the stable time step shrinks with its root. */
 	double stiffnessBound() const { return kind == Kind::boucWen ? boucWen.stiffnessBound() : 1; }
 };
 
+/* Empty, or what is wrong with a law's parameters: attribute, value and remedy. */
+std::string validate(const Law& law);
+
 /* Internal variables of a point, columns of Points::internal: first tensors in the components of the stress state,
-which turn with the material, then scalars. Dissipative laws keep the back stress as first tensor and the accumulated
-plastic strain as first scalar. */
+which turn with the material, then scalars. Dissipative laws keep the back stress as first tensor, where they have any,
+and the accumulated plastic strain as first scalar. */
 struct Internals {
 	int tensors = 0, scalars = 0;
 
-	static Internals of(Law::Kind kind) { return kind == Law::Kind::boucWen ? Internals { 1, 1 } : Internals {}; }
-	int              columns(int components) const { return tensors * components + scalars; }
+	static Internals of(const Law& law)
+	{
+		switch (law.kind) {
+			case Law::Kind::elastic: break;
+			case Law::Kind::boucWen: return { law.boucWen.tensors(), law.boucWen.scalars() };
+			case Law::Kind::j2: return { 1, 1 };
+			case Law::Kind::druckerPrager: return { 0, 1 };
+		}
+		return {};
+	}
+	int columns(int components) const { return tensors * components + scalars; }
 };
 
-/* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. */
-template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal)
+namespace detail {
+	/* Factor by which the elastic compliance has grown. */
+	template <class S> double complianceGrowth(const Law& law, const double* internal)
+	{
+		if (law.kind != Law::Kind::boucWen || !law.boucWen.degrades()) return 1;
+		return 1 + internal[law.boucWen.tensors() * S::N + 2];
+	}
+} // namespace detail
+
+/* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. Adds
+to response, where given. */
+template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal, Response* response = nullptr)
 {
+	constexpr int kept   = normals<S>();
+	double        growth = 0, trace = 0;
+	if (response && kept < 3 && law.kind != Law::Kind::druckerPrager) {
+		growth = detail::complianceGrowth<S>(law, internal);
+		for (int k = 0; k < kept; ++k)
+			trace -= sigma[k];
+	}
 	switch (law.kind) {
 		case Law::Kind::elastic: {
 			double De[S::N];
@@ -38,8 +72,33 @@ template <class S> void updateStress(const Law& law, const double* strain, doubl
 				sigma[k] += De[k];
 			break;
 		}
-		case Law::Kind::boucWen: internal[S::N] += boucWenUpdate<S>(law.boucWen, strain, sigma, internal); break;
+		case Law::Kind::boucWen: boucWenUpdate<S>(law.boucWen, strain, sigma, internal, response); break;
+		case Law::Kind::j2: j2Update<S>(law.j2, strain, sigma, internal, internal[S::N], response); break;
+		case Law::Kind::druckerPrager: {
+			Response unasked;
+			druckerPragerUpdate<S>(law.druckerPrager, strain, sigma, internal[0], response ? *response : unasked);
+			return;
+		}
 	}
+	if (response && kept < 3) {
+		// flow keeps the volume: tr eps = (1 - 2 nu)/E tr sigma, and the free normals share what is left of it
+		double keptStrain = 0;
+		for (int k = 0; k < kept; ++k)
+			trace += sigma[k], keptStrain += strain[k];
+		growth = .5 * (growth + detail::complianceGrowth<S>(law, internal));
+		response->freeStrain += (growth * (1 - 2 * law.elastic.poisson) / law.elastic.young * trace - keptStrain) / (3 - kept);
+	}
+}
+
+/* Energies a volume [J/m3] that a point holds and can give back. */
+template <class S> double elasticEnergy(const Law& law, const double* sigma, const double* internal)
+{
+	return .5 * detail::complianceGrowth<S>(law, internal) * complianceProduct<S>(law.elastic, sigma);
+}
+template <class S> double hardeningEnergy(const Law& law, const double* internal)
+{
+	const double H = law.kind == Law::Kind::boucWen ? law.boucWen.hardening : law.kind == Law::Kind::j2 ? law.j2.hardening : 0;
+	return H > 0 ? S::mises2(internal) / (2 * H) : 0;
 }
 
 } // namespace yade::mpm

@@ -422,7 +422,7 @@ private:
 	{
 		constexpr int   maxInternal = 64;
 		const Law&      law         = m_laws[m_points.material[p]];
-		const Internals layout      = Internals::of(law.kind);
+		const Internals layout      = Internals::of(law);
 		const int       columns     = layout.columns(N);
 		double          sigma[N], internal[maxInternal], F[dim * dim];
 		for (int k = 0; k < N; ++k)

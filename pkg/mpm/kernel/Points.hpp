@@ -27,6 +27,8 @@ struct Points {
 	Column                    thicknessStretch;               // F_zz of thinning plane stress
 	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
 
+	std::size_t generation = 0; // grows whenever points change their place in the arrays
+
 	std::size_t count() const { return id.size(); }
 
 	/* Every column of doubles, for what treats them alike: sorting, erasing, saving. */
@@ -84,6 +86,7 @@ struct Points {
 		};
 		forEachColumn(gather);
 		forEachIndexColumn(gather);
+		++generation;
 	}
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 
 namespace yade::mpm {
@@ -33,13 +34,15 @@ isotropic elasticity and of von Mises' criterion are on them. Strains carry engi
   normal(s,f,a)     a = M s / f, the gradient of f (strain-like: engineering shear)
   back(s,b)         the direction in which Prager's back stress moves: b = s where the out-of-plane stress is
 		    imposed (Simo & Taylor, IJNME 22 (1986) 649), the deviator of s elsewhere
-  tensor(s,T)       the symmetric 3x3 tensor
+  solid[k]          which of the components xx, yy, zz, yz, zx, xy of Solid the k-th is
   pWaveModulus(C)   greatest c^2 rho over all directions
+
+The normal components that a state lacks are stress-free where out-of-plane stress is imposed, and their strain follows.
 
 All work on plain arrays of N doubles. */
 
 struct Uniaxial { // sigma_xx alone
-	static constexpr int N = 1, dim = 1;
+	static constexpr int N = 1, dim = 1, solid[] = { 0 };
 	static void          elastic(const Hooke& C, const double* e, double* s) { s[0] = C.young * e[0]; }
 	static double        mises2(const double* s) { return s[0] * s[0]; }
 	static void          normal(const double* s, double f, double* a) { a[0] = s[0] / f; }
@@ -48,7 +51,7 @@ struct Uniaxial { // sigma_xx alone
 };
 
 struct PlaneStress { // xx, yy, xy
-	static constexpr int N = 3, dim = 2;
+	static constexpr int N = 3, dim = 2, solid[] = { 0, 1, 5 };
 	static void          elastic(const Hooke& C, const double* e, double* s)
 	{
 		const double xx = C.plane * e[0] + C.planeNu * e[1], yy = C.planeNu * e[0] + C.plane * e[1];
@@ -65,7 +68,7 @@ struct PlaneStress { // xx, yy, xy
 };
 
 struct PlaneStrain { // xx, yy, zz, xy
-	static constexpr int N = 4, dim = 2;
+	static constexpr int N = 4, dim = 2, solid[] = { 0, 1, 2, 5 };
 	static void          elastic(const Hooke& C, const double* e, double* s)
 	{
 		const double p = C.lame * (e[0] + e[1] + e[2]);
@@ -94,7 +97,7 @@ struct PlaneStrain { // xx, yy, zz, xy
 };
 
 struct Solid { // xx, yy, zz, yz, zx, xy
-	static constexpr int N = 6, dim = 3;
+	static constexpr int N = 6, dim = 3, solid[] = { 0, 1, 2, 3, 4, 5 };
 	static void          elastic(const Hooke& C, const double* e, double* s)
 	{
 		const double p = C.lame * (e[0] + e[1] + e[2]);
@@ -120,6 +123,70 @@ struct Solid { // xx, yy, zz, yz, zx, xy
 	}
 	static double pWaveModulus(const Hooke& C) { return C.lame + 2 * C.shear; }
 };
+
+/* The first `kept` normal components and all shears; the other normals are stress-free. Uniaxial and PlaneStress are
+kept = 1 and 2 without the shears that are zero there; a material point driven alone may have them. */
+template <int kept> struct FreeNormals {
+	static_assert(kept >= 0 && kept < 3);
+	static constexpr int                       N = kept + 3, dim = 3;
+	static constexpr std::array<int, kept + 3> solid = [] {
+		std::array<int, kept + 3> index {};
+		for (int k = 0; k < N; ++k)
+			index[std::size_t(k)] = k < kept ? k : k - kept + 3;
+		return index;
+	}();
+	static void elastic(const Hooke& C, const double* e, double* s)
+	{
+		if constexpr (kept == 1) s[0] = C.young * e[0];
+		if constexpr (kept == 2) {
+			const double xx = C.plane * e[0] + C.planeNu * e[1], yy = C.planeNu * e[0] + C.plane * e[1];
+			s[0] = xx, s[1] = yy;
+		}
+		for (int k = kept; k < N; ++k)
+			s[k] = C.shear * e[k];
+	}
+	static double mises2(const double* s)
+	{
+		double f2 = 3 * (s[kept] * s[kept] + s[kept + 1] * s[kept + 1] + s[kept + 2] * s[kept + 2]);
+		if constexpr (kept == 1) f2 += s[0] * s[0];
+		if constexpr (kept == 2) f2 += s[0] * s[0] - s[0] * s[1] + s[1] * s[1];
+		return f2;
+	}
+	static void normal(const double* s, double f, double* a)
+	{
+		if constexpr (kept == 1) a[0] = s[0] / f;
+		if constexpr (kept == 2) {
+			const double xx = (s[0] - .5 * s[1]) / f, yy = (s[1] - .5 * s[0]) / f;
+			a[0] = xx, a[1] = yy;
+		}
+		for (int k = kept; k < N; ++k)
+			a[k] = 3 * s[k] / f;
+	}
+	static void back(const double* s, double* b)
+	{
+		for (int k = 0; k < N; ++k)
+			b[k] = s[k];
+	}
+	static double pWaveModulus(const Hooke& C) { return kept == 2 ? C.plane : kept == 1 ? C.young : C.shear; }
+};
+
+/* How many normal components a stress state has; they come first. */
+template <class S> constexpr int normals()
+{
+	int count = 0;
+	for (int k = 0; k < S::N; ++k)
+		count += S::solid[k] < 3;
+	return count;
+}
+
+/* s^T D^-1 s of the whole tensor, twice the elastic energy a volume [J/m3]. */
+template <class S> double complianceProduct(const Hooke& C, const double* s)
+{
+	double trace = 0;
+	for (int k = 0; k < normals<S>(); ++k)
+		trace += s[k];
+	return S::mises2(s) / (3 * C.shear) + (1 - 2 * C.poisson) * trace * trace / (3 * C.young);
+}
 
 template <class S> double dot(const double* a, const double* b)
 {

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "MpmEngine.hpp"
+#include "BadInput.hpp"
+#include "BoucWenMat.hpp"
+#include "MpmState.hpp"
+#include <core/BodyContainer.hpp>
+#include <core/Bound.hpp>
+#include <core/ForceContainer.hpp>
+#include <core/Omega.hpp>
+#include <core/PartialEngine.hpp>
+#include <omp.h>
+
+namespace yade {
+
+namespace {
+	const char* const self = "MpmEngine";
+
+	template <class Value> Value choose(const std::string& attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
+	{
+		std::string names;
+		for (const auto& [name, value] : choices) {
+			if (given == name) return value;
+			names += (names.empty() ? "'" : ", '") + std::string(name) + "'";
+		}
+		refuse(self, attribute, "'" + given + "'", "choose one of " + names);
+	}
+
+	mpm::Analysis analysisOf(const std::string& name)
+	{
+		if (name == "axisymmetric") refuse(self, "analysis", "'axisymmetric'", "this version has 'planeStress', 'planeStrain' and '3d'");
+		return choose<mpm::Analysis>(
+		        "analysis",
+		        name,
+		        { { "planeStress", mpm::Analysis::planeStress }, { "planeStrain", mpm::Analysis::planeStrain }, { "3d", mpm::Analysis::solid } });
+	}
+	mpm::ShapeKind shapeOf(const std::string& name)
+	{
+		return choose<mpm::ShapeKind>(
+		        "shape",
+		        name,
+		        { { "linear", mpm::ShapeKind::linear },
+		          { "gimp", mpm::ShapeKind::gimp },
+		          { "quadratic", mpm::ShapeKind::quadratic },
+		          { "cubic", mpm::ShapeKind::cubic } });
+	}
+	mpm::Scheme schemeOf(const std::string& name)
+	{
+		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
+	}
+} // namespace
+
+void MpmEngine::action()
+{
+	const mpm::StepControl control = prepare();
+	if (m_points->count() == 0) return;
+	const std::lock_guard<std::mutex> lock(m_points->mutex);
+	readBodies();
+	checkStep(control);
+	m_solver->step(control);
+	writeBodies();
+	for (std::size_t w = 0; w < walls.size(); ++w) {
+		const mpm::Wall& wall = m_points->runtime.walls[w];
+		for (int d = 0; d < 3; ++d)
+			walls[w]->force[d] = wall.force[std::size_t(d)];
+		walls[w]->origin += scene->dt * walls[w]->velocity;
+	}
+}
+
+Real MpmEngine::criticalTimeStep()
+{
+	scene                           = &currentScene(); // the loop sets it before a step, and there may have been none
+	const mpm::StepControl control = prepare();
+	const std::lock_guard<std::mutex> lock(m_points->mutex);
+	readBodies();
+	return m_solver->criticalTimeStep(control.scheme);
+}
+
+Scene& MpmEngine::currentScene() const { return *Omega::instance().getScene(); }
+
+// ---- what the scene says ------------------------------------------------------------------------------------------------
+
+mpm::StepControl MpmEngine::prepare()
+{
+	require(cellSize > 0 && std::isfinite(cellSize), self, "cellSize", cellSize, "give the edge of a grid cell > 0 [m], e.g. twice the spacing of mpm.fill");
+	require(flip >= 0 && flip <= 1, self, "flip", flip, "give a value in [0, 1]; 1 is pure FLIP");
+	require(damping >= 0 && damping < 1, self, "damping", damping, "give a value in [0, 1)");
+	require(gravity.allFinite(), self, "gravity", gravity.transpose(), "give a finite acceleration [m/s2]");
+	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
+	const mpm::Analysis analysisKind = analysisOf(analysis);
+	const int           dim          = mpm::dimension(analysisKind);
+	require(
+	        !thinning || (analysisKind == mpm::Analysis::planeStress && largeStrain),
+	        self,
+	        "thinning",
+	        thinning,
+	        "only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
+
+	m_points = MpmPoints::of(*scene, false);
+	if (!m_points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
+	const std::lock_guard<std::mutex> lock(m_points->mutex);
+	if (m_checkedEngines.size() != scene->engines.size()
+	    || !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(), [](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
+		checkEngineOrder();
+	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == thinning) m_points->finish();
+	m_points->large = largeStrain;
+	m_points->updateLaws();
+	prepareWalls(dim);
+	prepareSolver();
+
+	mpm::StepControl control;
+	control.dt = scene->dt, control.time = scene->time;
+	for (std::size_t d = 0; d < 3; ++d)
+		control.gravity[d] = gravity[int(d)];
+	control.damping = damping, control.flip = flip;
+	control.scheme      = schemeOf(scheme);
+	control.largeStrain = largeStrain, control.thinning = thinning;
+	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
+	return control;
+}
+
+void MpmEngine::prepareWalls(int dim)
+{
+	std::vector<mpm::Wall>& kernelWalls = m_points->runtime.walls;
+	kernelWalls.resize(walls.size());
+	for (std::size_t w = 0; w < walls.size(); ++w) {
+		if (!walls[w]) refuse(self, "walls[" + std::to_string(w) + "]", "None", "give an MpmWall");
+		kernelWalls[w] = walls[w]->toKernel(w, dim);
+		for (std::size_t v = 0; v < w; ++v) {
+			const mpm::Wall &a = kernelWalls[v], &b = kernelWalls[w];
+			if (a.axis != b.axis) continue;
+			require(a.side != b.side, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w), "two walls face the same way; give one wall a side");
+			require(
+			        (b.position - a.position) * a.side > 0,
+			        self,
+			        "walls",
+			        "walls " + std::to_string(v) + " and " + std::to_string(w),
+			        "two walls face each other with no room between them; normals point into the material");
+		}
+	}
+}
+
+void MpmEngine::prepareSolver()
+{
+	mpm::Points&        points   = m_points->points;
+	const mpm::Analysis analysisKind = analysisOf(analysis);
+	const auto          key      = std::make_tuple(analysis, shape, cellSize);
+	const std::size_t   columns  = std::size_t(mpm::stressComponents(analysisKind));
+	auto&               runtime  = m_points->runtime;
+	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
+		m_points->finish();
+		require(
+		        points.stress.empty() || points.stress.size() == columns,
+		        self,
+		        "analysis",
+		        "'" + analysis + "'",
+		        "the points already carry the stress of another analysis; make new points");
+		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
+		m_solver       = runtime.solver.get();
+		m_solverFor    = key;
+		m_checkedGeneration = std::size_t(-1);
+		m_checkedStep  = 0;
+	}
+	if (points.generation != m_checkedGeneration && points.count() != m_checkedCount) {
+		checkPoints(mpm::dimension(analysisKind));
+		m_checkedCount = points.count();
+		m_checkedStep  = 0;
+	}
+	m_checkedGeneration = points.generation;
+
+	int internals = 0;
+	for (const mpm::Law& law : runtime.laws)
+		internals = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
+	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
+	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0);
+}
+
+void MpmEngine::checkPoints(int dim) const
+{
+	const mpm::Points& points = m_points->points;
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		const std::string name = "material point " + std::to_string(points.id[p]);
+		require(points.mass[p] > 0 && std::isfinite(points.mass[p]), name, "mass", points.mass[p], "give its material a density > 0 before mpm.fill()");
+		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p], "give mpm.fill() a spacing > 0 and a thickness > 0");
+		if (dim == 2)
+			require(points.thickness[p] > 0, name, "thickness", points.thickness[p], "a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]");
+		else
+			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
+		if (dim == 2)
+			require(
+			        points.position[2][p] == 0 && points.velocity[2][p] == 0,
+			        name,
+			        "position[2], velocity[2]",
+			        std::to_string(points.position[2][p]) + ", " + std::to_string(points.velocity[2][p]),
+			        "in a plane analysis points lie at z = 0 and stay there");
+		if (shape == "gimp")
+			require(points.size[p] <= cellSize * (1 + 1e-12), self, "cellSize", cellSize, "GIMP needs cells at least as large as the points' spacing");
+	}
+}
+
+/* Forces that are applied after this engine and cleared before it runs again would be lost without a word. */
+void MpmEngine::checkEngineOrder()
+{
+	const auto& engines = scene->engines;
+	m_checkedEngines.clear();
+	for (const auto& engine : engines)
+		m_checkedEngines.push_back(engine.get());
+	const std::size_t n = engines.size(), here = std::size_t(std::find(m_checkedEngines.begin(), m_checkedEngines.end(), this) - m_checkedEngines.begin());
+	for (std::size_t k = 0; k < n; ++k) {
+		const std::string name    = engines[k]->getClassName();
+		const bool        partial = dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
+		if (!partial && name != "InteractionLoop" && !Omega::instance().isInheritingFrom(name, "FieldApplier")) continue;
+		for (std::size_t step = 1; step < n && (k + step) % n != here; ++step)
+			if (engines[(k + step) % n]->getClassName() == "ForceResetter")
+				throw std::runtime_error(
+				        "O.engines: the forces of " + name + " (place " + std::to_string(k) + ") are cleared by ForceResetter (place "
+				        + std::to_string((k + step) % n) + ") before MpmEngine (place " + std::to_string(here)
+				        + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
+	}
+}
+
+void MpmEngine::checkStep(const mpm::StepControl& control)
+{
+	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
+	if (control.dt <= m_checkedStep) return;
+	const Real limit = m_solver->criticalTimeStep(control.scheme);
+	if (control.dt > limit)
+		refuse("O", "dt", control.dt, "the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
+	m_checkedStep = control.dt;
+}
+
+// ---- bodies -------------------------------------------------------------------------------------------------------------
+
+/* What scripts and other engines have done to the points' bodies since the last step: forces, and state that differs from
+what this engine wrote. */
+void MpmEngine::readBodies()
+{
+	if (m_bodies == 0) return;
+	mpm::Points& points = m_points->points;
+	auto&        bodies = *scene->bodies;
+	const auto   n      = points.count();
+	const int    dim    = int(points.force.size());
+	scene->forces.sync();
+
+	std::vector<std::size_t> moved, kept;
+	bool                     erased = false;
+	for (std::size_t p = 0; p < n; ++p) {
+		const int id = points.id[p];
+		if (id < 0) continue;
+		const Body* body  = std::size_t(id) < bodies.size() ? bodies[unsigned(id)].get() : nullptr;
+		const auto* state = body ? dynamic_cast<const MpmState*>(body->state.get()) : nullptr;
+		if (!state || state->pointId != id) {
+			erased = true;
+			continue;
+		}
+		const Vector3r& force = scene->forces.getForce(id);
+		bool            here  = true;
+		for (int d = 0; d < 3; ++d) {
+			const auto axis = std::size_t(d);
+			if (d < dim) points.force[axis][p] = force[d];
+			points.velocity[axis][p] = state->vel[d];
+			const Real advance       = axis < points.advance.size() ? points.advance[axis][p] : 0;
+			here                     = here && state->pos[d] == points.position[axis][p] + advance;
+		}
+		if (!here) moved.push_back(p);
+		if (dim == 2 && (state->pos[2] != 0 || state->vel[2] != 0))
+			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state->pos[2], "in a plane analysis points lie at z = 0 and stay there");
+		if (const auto fixed = std::uint8_t(state->blockedDOFs & 7); fixed || !points.fixed.empty()) {
+			points.fixed.resize(n, 0);
+			points.fixed[p] = fixed;
+		}
+		auto& material = m_points->materials[std::size_t(points.material[p])];
+		if (body->material != material) {
+			m_points->finish();
+			auto& materials = m_points->materials;
+			auto  found     = std::find(materials.begin(), materials.end(), body->material);
+			if (found == materials.end()) found = materials.insert(materials.end(), body->material);
+			points.material[p] = int(found - materials.begin());
+			m_points->updateLaws();
+			prepareSolver();
+		}
+	}
+	if (moved.empty() && !erased) return;
+
+	m_points->finish();
+	for (const std::size_t p : moved)
+		for (int d = 0; d < 3; ++d)
+			points.position[std::size_t(d)][p] = bodies[unsigned(points.id[p])]->state->pos[d];
+	if (erased) {
+		for (std::size_t p = 0; p < n; ++p) {
+			const int id = points.id[p];
+			if (id < 0) kept.push_back(p);
+			else if (std::size_t(id) < bodies.size() && bodies[unsigned(id)]) {
+				const auto* state = dynamic_cast<const MpmState*>(bodies[unsigned(id)]->state.get());
+				if (state && state->pointId == id) kept.push_back(p);
+			}
+		}
+		points.select(kept);
+	}
+	m_solver->pointsChanged();
+	checkPoints(mpm::dimension(analysisOf(analysis)));
+}
+
+void MpmEngine::writeBodies() const
+{
+	if (m_bodies == 0) return;
+	const mpm::Points& points = m_points->points;
+	auto&              bodies = *scene->bodies;
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		if (points.id[p] < 0) continue;
+		const Body& body  = *bodies[unsigned(points.id[p])];
+		State&      state = *body.state;
+		for (std::size_t d = 0; d < points.advance.size(); ++d) {
+			state.pos[int(d)] = points.position[d][p] + points.advance[d][p];
+			state.vel[int(d)] = points.velocity[d][p];
+		}
+		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
+		if (body.bound && (state.pos - body.bound->refPos).squaredNorm() > body.bound->sweepLength * body.bound->sweepLength) scene->doSort = true;
+	}
+}
+
+} // namespace yade

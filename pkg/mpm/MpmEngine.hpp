@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "MpmPoints.hpp"
+#include "MpmWall.hpp"
+#include <core/GlobalEngine.hpp>
+
+namespace yade {
+
+class MpmEngine : public GlobalEngine {
+public:
+	void action() override;
+
+	/* Largest stable step of the scene as it stands [s]. */
+	Real criticalTimeStep();
+	/* Bytes that the grid holds. */
+	std::size_t gridBytes() const { return m_points && m_points->runtime.solver ? m_points->runtime.solver->gridBytes() : 0; }
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmEngine, GlobalEngine, "Explicit material point method (Sulsky, Chen & Schreyer, CMAME 118 (1994) 179; eqs. 12-16 of Sofianos & Koumousis, COMPDYN 2017): moves the material points that :yref:`mpm.fill` has made by solving the momentum equation on a background grid each step. External forces are those that YADE has collected on the points' bodies when this engine runs, so it stands after ForceResetter and the engines that apply forces. The grid follows the points.",
+		((Real, cellSize, NaN, , "Edge of a grid cell, > 0 [m]; between two parallel walls stretched to fit a whole number of cells. Mandatory. Two points a cell and axis are usual: twice the spacing of mpm.fill."))
+		((std::string, analysis, "planeStress", , "'planeStress', 'planeStrain' (points with a thickness, moving in x and y) or '3d' (points without)."))
+		((std::string, shape, "cubic", , "Shape functions: 'linear', 'gimp' (uniform GIMP), 'quadratic' or 'cubic' B-splines."))
+		((std::string, scheme, "MUSL", , "When stress is updated: 'USF' (first), 'USL' (last), 'MUSL' (last, with nodal velocities mapped once more from the points)."))
+		((Real, flip, 1, , "Part of the velocity increment that is FLIP, in [0, 1] [-]: 1 adds nodal velocity increments to the points and does not dissipate; 0 replaces the points' velocities by the grid's (PIC) and dissipates strongly."))
+		((Vector3r, gravity, Vector3r::Zero(), , "Acceleration of gravity on all points [m/s2]."))
+		((Real, damping, 0, , "Cundall's non-viscous damping, in [0, 1) [-], meaning as in NewtonIntegrator, on the nodes: a component of a nodal acceleration is scaled by 1 - damping where it speeds the motion up and by 1 + damping where it slows it down."))
+		((bool, largeStrain, true, , "True: stress and back stress turn with the material (Hughes & Winget 1980), volumes are current. False: linear kinematics, initial volumes."))
+		((bool, thinning, false, , "Plane stress in large strain: whether the thickness follows the strain normal to the plane (True) or is kept (False)."))
+		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
+		,/*ctor*/,
+		.def("criticalTimeStep", &MpmEngine::criticalTimeStep, "Largest stable step of the scene as it stands [s]: 2/omega of the discrete operator with elastic stiffness, and the fastest point crossing less than a cell. doc/method.md derives it.")
+		.add_property("gridBytes", &MpmEngine::gridBytes, "Memory of the grid [bytes].")
+	);
+	// clang-format on
+
+private:
+	shared_ptr<MpmPoints>                       m_points;
+	std::tuple<std::string, std::string, Real>  m_solverFor; // analysis, shape, cellSize that the solver was made for
+	mpm::Solver*                                m_solver = nullptr;
+	std::size_t                                 m_bodies = 0; // points that have one
+	std::size_t                                 m_checkedGeneration = std::size_t(-1), m_checkedCount = 0;
+	Real                                        m_checkedStep  = 0; // steps up to this one are known to be stable
+	std::vector<Engine*>                        m_checkedEngines;
+
+	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
+	mpm::StepControl prepare();
+	void             prepareWalls(int dim);
+	void             prepareSolver();
+	void             checkPoints(int dim) const;
+	void             checkEngineOrder();
+	void             checkStep(const mpm::StepControl& control);
+	void             readBodies();
+	void             writeBodies() const;
+	Scene&           currentScene() const;
+};
+REGISTER_SERIALIZABLE(MpmEngine);
+
+} // namespace yade

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "MpmPoints.hpp"
+#include "BoucWenMat.hpp"
+#include "MpmState.hpp"
+#include <Eigen/Eigenvalues>
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
+#include <core/Omega.hpp>
+#include <pkg/common/ElastMat.hpp>
+#include <pkg/common/Sphere.hpp>
+
+namespace yade {
+
+namespace py = ::boost::python;
+
+shared_ptr<MpmPoints> MpmPoints::of(Scene& scene, bool create)
+{
+	for (const auto& item : scene.miscParams)
+		if (auto points = dynamic_pointer_cast<MpmPoints>(item)) return points;
+	if (!create) return {};
+	const shared_ptr<MpmPoints> points(new MpmPoints);
+	scene.miscParams.push_back(points);
+	return points;
+}
+
+void MpmPoints::finish()
+{
+	if (runtime.solver) runtime.solver->finish();
+}
+
+void MpmPoints::updateLaws()
+{
+	runtime.laws.resize(materials.size());
+	for (std::size_t m = 0; m < materials.size(); ++m)
+		runtime.laws[m] = lawOf(*materials[m]);
+}
+
+mpm::Internals MpmPoints::internals(std::size_t p) const
+{
+	if (runtime.laws.size() < materials.size()) return {}; // no step yet
+	return mpm::Internals::of(runtime.laws[std::size_t(points.material[p])]);
+}
+
+/* The laws are not saved; a loaded scene can be looked at before its first step. */
+void MpmPoints::postLoad(MpmPoints&)
+{
+	try {
+		updateLaws();
+	} catch (const std::runtime_error&) {
+		runtime.laws.clear(); // the engine complains about a bad material before its next step
+	}
+}
+
+/* A scene that a failed step has stopped must still be saveable: what fails here has failed in the run as well. */
+void MpmPoints::preSave(MpmPoints&)
+{
+	const std::lock_guard<std::mutex> lock(mutex);
+	try {
+		finish();
+	} catch (const mpm::StepFailure&) {
+	}
+}
+
+std::size_t MpmPoints::indexOf(int id)
+{
+	if (m_indexed != points.generation || m_indices.size() != points.count()) {
+		m_indices.clear();
+		for (std::size_t p = 0; p < points.count(); ++p)
+			m_indices[points.id[p]] = p;
+		m_indexed = points.generation;
+	}
+	const auto found = m_indices.find(id);
+	if (found == m_indices.end()) throw std::runtime_error("there is no material point " + std::to_string(id) + " (any more)");
+	return found->second;
+}
+
+// ---- one point ----------------------------------------------------------------------------------------------------------
+
+Matrix3r MpmPoints::tensor(const mpm::Columns& columns, std::size_t p) const
+{
+	Matrix3r T = Matrix3r::Zero();
+	auto     s = [&](std::size_t k) { return columns[k][p]; };
+	switch (points.stress.size()) {
+		case 3: T << s(0), s(2), 0, s(2), s(1), 0, 0, 0, 0; break;
+		case 4: T << s(0), s(3), 0, s(3), s(1), 0, 0, 0, s(2); break;
+		case 6: T << s(0), s(5), s(4), s(5), s(1), s(3), s(4), s(3), s(2); break;
+		default: break; // no step yet: no stress
+	}
+	return T;
+}
+
+Matrix3r MpmPoints::stress(std::size_t p) const { return tensor(points.stress, p); }
+
+Matrix3r MpmPoints::backStress(std::size_t p) const
+{
+	return internals(p).tensors > 0 && !points.internal.empty() ? tensor(points.internal, p) : Matrix3r::Zero();
+}
+
+Real MpmPoints::plasticStrain(std::size_t p) const
+{
+	const mpm::Internals layout = internals(p);
+	return layout.scalars > 0 && !points.internal.empty() ? points.internal[std::size_t(layout.tensors) * points.stress.size()][p] : 0;
+}
+
+Matrix3r MpmPoints::deformation(std::size_t p) const
+{
+	Matrix3r   F   = Matrix3r::Identity();
+	const auto dim = points.deformation.size() == 9 ? 3 : 2;
+	for (std::size_t k = 0; k < points.deformation.size(); ++k)
+		F(int(k) / dim, int(k) % dim) = points.deformation[k][p];
+	if (!points.thicknessStretch.empty()) F(2, 2) = points.thicknessStretch[p];
+	return F;
+}
+
+Matrix3r MpmPoints::strain(std::size_t p) const
+{
+	const Matrix3r F = deformation(p);
+	Matrix3r       strain;
+	if (large) {
+		const Eigen::SelfAdjointEigenSolver<Matrix3r> stretch(F * F.transpose());
+		const Vector3r                                logarithms = .5 * stretch.eigenvalues().array().log();
+		strain = stretch.eigenvectors() * logarithms.asDiagonal() * stretch.eigenvectors().transpose();
+	} else
+		strain = .5 * (F + F.transpose()) - Matrix3r::Identity();
+	if (points.stress.size() == 3) { // plane stress: plastic flow keeps the volume
+		const auto& elastic = dynamic_cast<const ElastMat&>(*materials[std::size_t(points.material[p])]);
+		strain(2, 2)        = (1 - 2 * elastic.poisson) / elastic.young * stress(p).trace() - strain(0, 0) - strain(1, 1);
+	}
+	return strain;
+}
+
+Real MpmPoints::volume(std::size_t p) const { return points.volume0[p] * (large ? deformation(p).determinant() : 1); }
+
+Real MpmPoints::vonMises(std::size_t p) const
+{
+	const Matrix3r s = stress(p), deviator = s - s.trace() / 3 * Matrix3r::Identity();
+	return std::sqrt(1.5) * deviator.norm();
+}
+
+// ---- py/mpm -------------------------------------------------------------------------------------------------------------
+
+namespace {
+	/* Bodies outside the scene's own subdomain (0) are left alone by NewtonIntegrator and do not touch each other, while
+	contacts with other bodies and forces on them work as usual: what a material point wants. */
+	constexpr int subdomainOfPoints = 1;
+
+	/* A buffer of doubles that Python hands in. */
+	class DoubleBuffer {
+	public:
+		explicit DoubleBuffer(const py::object& object)
+		{
+			if (PyObject_GetBuffer(object.ptr(), &m_view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) py::throw_error_already_set();
+			if (std::string(m_view.format ? m_view.format : "") != "d") {
+				PyBuffer_Release(&m_view);
+				throw std::invalid_argument("expected a contiguous array of float64");
+			}
+		}
+		~DoubleBuffer() { PyBuffer_Release(&m_view); }
+		DoubleBuffer(const DoubleBuffer&)            = delete;
+		DoubleBuffer& operator=(const DoubleBuffer&) = delete;
+		const double* data() const { return static_cast<const double*>(m_view.buf); }
+		std::size_t   size() const { return std::size_t(m_view.len) / sizeof(double); }
+
+	private:
+		Py_buffer m_view;
+	};
+} // namespace
+
+py::object MpmPoints::append(py::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies)
+{
+	const DoubleBuffer                buffer(positions);
+	const std::lock_guard<std::mutex> lock(mutex);
+	finish();
+	if (runtime.solver) runtime.solver->pointsChanged();
+
+	std::size_t index = std::size_t(std::find(materials.begin(), materials.end(), material) - materials.begin());
+	if (index == materials.size()) materials.push_back(material);
+	const Real volume = thickness > 0 ? spacing * spacing * thickness : spacing * spacing * spacing, mass = material->density * volume;
+
+	BodyContainer& container = *Omega::instance().getScene()->bodies;
+	py::list       ids;
+	for (std::size_t k = 0; k + 2 < buffer.size(); k += 3) {
+		const Vector3r x(buffer.data()[k], buffer.data()[k + 1], buffer.data()[k + 2]);
+		int            id = 0;
+		if (bodies) {
+			const shared_ptr<MpmState> state(new MpmState);
+			const shared_ptr<Sphere>   sphere(new Sphere);
+			const shared_ptr<Body>     body(new Body);
+			sphere->radius = .5 * spacing;
+			state->pos = state->refPos = x;
+			state->vel                 = velocity;
+			state->mass                = mass;
+			state->inertia             = Vector3r::Constant(.4 * mass * sphere->radius * sphere->radius);
+			state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
+			body->state                = state;
+			body->shape                = sphere;
+			body->material             = material;
+			body->subdomain            = subdomainOfPoints;
+			id = state->pointId = container.insert(body);
+		} else
+			id = nextBodyless--;
+		points.append(id, int(index), x.data(), velocity.data(), mass, volume, spacing, thickness);
+		ids.append(id);
+	}
+	++points.generation;
+	return ids;
+}
+
+py::object MpmPoints::array(const std::string& name)
+{
+	const std::lock_guard<std::mutex> lock(mutex);
+	finish();
+	const std::size_t n = points.count();
+
+	// bodies by id, then points without a body: the order they were made in
+	std::vector<std::size_t> order(n);
+	for (std::size_t p = 0; p < n; ++p)
+		order[p] = p;
+	auto rank = [&](std::size_t p) { return points.id[p] >= 0 ? long(points.id[p]) : (1L << 40) - points.id[p]; };
+	std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return rank(p) < rank(q); });
+
+	auto make = [&](std::size_t width, auto&& write) {
+		py::object bytes(py::handle<>(PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(n * width * sizeof(double)))));
+		double*    out = reinterpret_cast<double*>(PyByteArray_AsString(bytes.ptr()));
+		for (std::size_t k = 0; k < n; ++k)
+			write(order[k], out + k * width);
+		return py::object(py::make_tuple(bytes, py::str("float64"), width == 1 ? py::make_tuple(n) : width == 3 ? py::make_tuple(n, 3) : py::make_tuple(n, 3, 3)));
+	};
+	auto scalar = [&](auto&& value) { return make(1, [&](std::size_t p, double* out) { *out = value(p); }); };
+	auto vector = [&](const mpm::Columns& columns) {
+		return make(3, [&](std::size_t p, double* out) {
+			for (std::size_t d = 0; d < 3; ++d)
+				out[d] = columns[d][p];
+		});
+	};
+	auto matrix = [&](auto&& value) {
+		return make(9, [&](std::size_t p, double* out) {
+			const Matrix3r T = value(p);
+			for (int k = 0; k < 9; ++k)
+				out[k] = T(k / 3, k % 3);
+		});
+	};
+	if (name == "id") {
+		py::object bytes(py::handle<>(PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(n * sizeof(std::int64_t)))));
+		auto*      out = reinterpret_cast<std::int64_t*>(PyByteArray_AsString(bytes.ptr()));
+		for (std::size_t k = 0; k < n; ++k)
+			out[k] = points.id[order[k]];
+		return py::make_tuple(bytes, "int64", py::make_tuple(n));
+	}
+	if (name == "position") return vector(points.position);
+	if (name == "velocity") return vector(points.velocity);
+	if (name == "mass") return scalar([&](std::size_t p) { return points.mass[p]; });
+	if (name == "volume") return scalar([&](std::size_t p) { return volume(p); });
+	if (name == "plasticStrain") return scalar([&](std::size_t p) { return plasticStrain(p); });
+	if (name == "vonMises") return scalar([&](std::size_t p) { return vonMises(p); });
+	if (name == "stress") return matrix([&](std::size_t p) { return stress(p); });
+	if (name == "strain") return matrix([&](std::size_t p) { return strain(p); });
+	if (name == "backStress") return matrix([&](std::size_t p) { return backStress(p); });
+	if (name == "F") return matrix([&](std::size_t p) { return deformation(p); });
+	throw std::invalid_argument(
+	        "mpm.array('" + name
+	        + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain' or 'vonMises'");
+}
+
+} // namespace yade

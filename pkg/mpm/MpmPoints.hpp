@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "kernel/Solver.hpp"
+#include <core/Material.hpp>
+#include <core/Scene.hpp>
+#include <lib/serialization/Serializable.hpp>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace boost::serialization {
+/* The columns under their own names; advance is never pending when a scene is saved, forces are YADE's. */
+template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
+{
+	archive& make_nvp("id", points.id) & make_nvp("material", points.material) & make_nvp("fixed", points.fixed);
+	archive& make_nvp("mass", points.mass) & make_nvp("volume0", points.volume0) & make_nvp("size", points.size);
+	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
+	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
+	archive& make_nvp("thicknessStretch", points.thicknessStretch);
+}
+} // namespace boost::serialization
+
+namespace yade {
+
+/* The material points of a scene. They belong to the scene, as bodies do, not to the engine that moves them: an engine may
+be replaced, and points may exist before there is one. Found in O.miscParams, saved with the scene, and held by the state
+of every body that stands for a point.
+
+What the kernel needs besides the points (laws, walls, solver) lives here too, because a stress update may be pending when
+an engine goes away. */
+class MpmPoints : public Serializable {
+public:
+	struct Runtime {
+		std::vector<mpm::Law>        laws; // in the order of materials
+		std::vector<mpm::Wall>       walls;
+		std::unique_ptr<mpm::Solver> solver;
+	};
+
+	/* Those of the scene; where there are none, an empty pointer, or new ones. */
+	static shared_ptr<MpmPoints> of(Scene& scene, bool create);
+
+	std::size_t count() const { return points.count(); }
+	/* Carries out the pending stress update. */
+	void finish();
+	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
+	void updateLaws();
+	/* Index of the point with this id in the arrays as they stand; throws where there is none. */
+	std::size_t indexOf(int id);
+
+	/* State of one point, as Python sees it. */
+	Matrix3r stress(std::size_t p) const;
+	Matrix3r strain(std::size_t p) const;
+	Matrix3r backStress(std::size_t p) const;
+	Matrix3r deformation(std::size_t p) const;
+	Real     plasticStrain(std::size_t p) const;
+	Real     volume(std::size_t p) const;
+	Real     vonMises(std::size_t p) const;
+
+	/* For py/mpm: adds points at positions (buffer of N x 3 doubles) and, if asked, a body for each; returns their ids. */
+	::boost::python::object append(
+	        ::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
+	/* For py/mpm: (bytes, shape) of one quantity, points in the order they were made in. */
+	::boost::python::object array(const std::string& name);
+
+	void preSave(MpmPoints&);
+	void postLoad(MpmPoints&);
+
+	Runtime    runtime;
+	std::mutex mutex; // between the simulation's thread and Python's
+
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",
+		((mpm::Points, points, , Attr::hidden, "Structure of arrays"))
+		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
+		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
+		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
+		,/*ctor*/,
+		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")
+		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
+		.def("__len__", &MpmPoints::count)
+	);
+	// clang-format on
+
+private:
+	std::unordered_map<int, std::size_t> m_indices;     // of the order and number of points below
+	std::size_t                          m_indexed = 0; // points.generation that m_indices holds for
+
+	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
+	mpm::Internals internals(std::size_t p) const;
+};
+REGISTER_SERIALIZABLE(MpmPoints);
+
+} // namespace yade

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "PointDriver.hpp"
+#include <stdexcept>
+
+namespace yade::mpm {
+
+namespace {
+	/* Row and column of Solid's components. */
+	constexpr int row[6] = { 0, 1, 2, 1, 0, 0 }, column[6] = { 0, 1, 2, 2, 2, 1 };
+
+	/* axes: those of the stress state, in terms of the path's. */
+	template <class S> PointHistory drive(const Law& law, const std::vector<double>& strain, const std::array<int, 3>& axes)
+	{
+		const Internals     layout = Internals::of(law);
+		const std::size_t   count  = strain.size() / 9;
+		std::vector<double> internal(std::size_t(layout.columns(S::N)), 0.);
+		double              sigma[S::N] {}, before[S::N] {};
+		Response            response;
+		PointHistory        history;
+		for (std::vector<double>* tensors : { &history.stress, &history.backStress, &history.strain })
+			tensors->assign(9 * count, 0.);
+
+		for (std::size_t i = 0; i < count; ++i) {
+			auto   at = [&](int r, int c) { return 9 * i + std::size_t(3 * axes[std::size_t(r)] + axes[std::size_t(c)]); };
+			double increment[S::N];
+			for (int k = 0; k < S::N; ++k) {
+				const int    c     = S::solid[std::size_t(k)];
+				const double total = strain[at(row[c], column[c])] + strain[at(column[c], row[c])]; // engineering shear, twice the normal
+				const double value = c < 3 ? .5 * total : total;
+				increment[k] = value - before[k], before[k] = value;
+			}
+			updateStress<S>(law, increment, sigma, internal.data(), &response);
+
+			for (int k = 0; k < S::N; ++k) {
+				const int c = S::solid[std::size_t(k)];
+				for (const std::size_t entry : { at(row[c], column[c]), at(column[c], row[c]) }) {
+					history.stress[entry] = sigma[k];
+					history.strain[entry] = strain[entry];
+					if (layout.tensors > 0) history.backStress[entry] = internal[std::size_t(k)];
+				}
+			}
+			for (int d = normals<S>(); d < 3; ++d)
+				history.strain[at(d, d)] = response.freeStrain;
+			history.plasticStrain.push_back(layout.scalars > 0 ? internal[std::size_t(layout.tensors * S::N)] : 0);
+			history.dissipation.push_back(response.dissipation);
+		}
+		return history;
+	}
+
+	void requirePath(const std::vector<double>& strain, const std::array<bool, 3>& free)
+	{
+		if (strain.size() % 9 != 0)
+			throw std::invalid_argument("strain has " + std::to_string(strain.size()) + " numbers: give nine, a 3x3 tensor, an entry of the path");
+		for (std::size_t i = 0; i < strain.size(); i += 9)
+			for (std::size_t r = 0; r < 3; ++r)
+				for (std::size_t c = 0; c < 3; ++c) {
+					if (r == c && free[r]) continue;
+					const double e = strain[i + 3 * r + c], transposed = strain[i + 3 * c + r];
+					const char   axes[] = { "xyz"[r], "xyz"[c], 0 };
+					const auto   what   = "strain " + std::string(axes) + " of entry " + std::to_string(i / 9) + " is " + std::to_string(e);
+					if (!std::isfinite(e)) throw std::invalid_argument(what + ": give a finite number");
+					if (std::abs(e - transposed) > 1e-12 * (std::abs(e) + std::abs(transposed)))
+						throw std::invalid_argument(what + " but its transpose is " + std::to_string(transposed)
+									    + ": give symmetric tensors, with half the engineering shear");
+				}
+	}
+} // namespace
+
+PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free)
+{
+	const std::string error = validate(law);
+	if (!error.empty()) throw std::invalid_argument(error);
+	requirePath(strain, free);
+	std::array<int, 3> axes {};
+	std::size_t        kept = 0;
+	for (const bool wanted : { false, true })
+		for (int d = 0; d < 3; ++d)
+			if (free[std::size_t(d)] == wanted) axes[kept++] = d;
+	switch (std::count(free.begin(), free.end(), true)) {
+		case 0: return drive<Solid>(law, strain, axes);
+		case 1: return drive<FreeNormals<2>>(law, strain, axes);
+		case 2: return drive<FreeNormals<1>>(law, strain, axes);
+		default: return drive<FreeNormals<0>>(law, strain, axes);
+	}
+}
+
+} // namespace yade::mpm

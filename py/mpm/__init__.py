@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The material point method in YADE: material points as bodies of the scene.
+
+	from yade import mpm
+	O.materials.append(BoucWenMat(label='steel', young=210e9, poisson=.3, density=7850, yieldStress=240e6, tangentRatio=.05))
+	beam = mpm.fill(((0, 0), (1, .1)), spacing=1/60., thickness=.05, material='steel')
+	O.engines = [ForceResetter(), MpmEngine(cellSize=1/30., walls=[MpmWall(normal=(1, 0, 0))])]
+	O.dt = .4*mpm.criticalTimeStep()
+	O.run(1000, True)
+	sigma = mpm.array('stress')
+
+Units are SI, tension is positive.
+"""
+import yade
+
+if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
+
+from .points import array, criticalTimeStep, fill
+
+__all__ = ['array', 'criticalTimeStep', 'fill']
