@@ -12,8 +12,8 @@ mpm::Law lawOf(const Material& material)
 		throw std::runtime_error(name + " has no law for material points: give them an ElastMat, a FrictMat (linear elastic) or a BoucWenMat");
 
 	mpm::Law law;
-	require(elastic->density > 0, name, "density", elastic->density, "give a density > 0 [kg/m3]");
-	require(elastic->young > 0, name, "young", elastic->young, "give Young's modulus > 0 [Pa]");
+	require(elastic->density > 0 && std::isfinite(elastic->density), name, "density", elastic->density, "give a density > 0 [kg/m3]");
+	require(elastic->young > 0 && std::isfinite(elastic->young), name, "young", elastic->young, "give Young's modulus > 0 [Pa]");
 	require(elastic->poisson > -1 && elastic->poisson < .5, name, "poisson", elastic->poisson, "give Poisson's ratio in (-1, 0.5)");
 	law.density = elastic->density;
 	law.elastic = mpm::Hooke(elastic->young, elastic->poisson);
@@ -21,6 +21,7 @@ mpm::Law lawOf(const Material& material)
 	if (const auto* m = dynamic_cast<const BoucWenMat*>(&material)) {
 		require(m->yieldStress > 0, name, "yieldStress", m->yieldStress, "give a yield stress > 0 [Pa]");
 		require(m->n > 0, name, "n", m->n, "give an exponent > 0, e.g. 10");
+		require(std::isfinite(m->beta), name, "beta", m->beta, "give a number; beta = gamma = 0.5 unloads elastically");
 		require(m->gamma >= std::abs(m->beta), name, "gamma", m->gamma, "choose gamma >= abs(beta), or dissipation can be negative; 0.5 and 0.5 unload elastically");
 		require(std::abs(m->beta + m->gamma - 1) <= 1e-12, name, "beta", m->beta, "choose beta = 1 - gamma, or the stress saturates elsewhere than at yieldStress");
 		require(m->tangentRatio >= 0 && m->tangentRatio < 1, name, "tangentRatio", m->tangentRatio, "give E_t/E in [0, 1), e.g. 0.05 for 5 % hardening");

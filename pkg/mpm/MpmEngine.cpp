@@ -4,11 +4,14 @@
 #include "BoucWenMat.hpp"
 #include "MpmState.hpp"
 #include <core/BodyContainer.hpp>
+#include <core/EnergyTracker.hpp>
 #include <core/Bound.hpp>
 #include <core/ForceContainer.hpp>
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
+#include <chrono>
 #include <omp.h>
+#include <thread>
 
 namespace yade {
 
@@ -51,6 +54,17 @@ namespace {
 
 void MpmEngine::action()
 {
+	try {
+		step();
+	} catch (const std::exception&) {
+		// YADE loses the exception of a loop that ends before O.run(n, True) has begun to wait for it
+		std::this_thread::sleep_for(std::chrono::milliseconds(50));
+		throw;
+	}
+}
+
+void MpmEngine::step()
+{
 	const mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
 	const std::lock_guard<std::mutex> lock(m_points->mutex);
@@ -58,12 +72,28 @@ void MpmEngine::action()
 	checkStep(control);
 	m_solver->step(control);
 	writeBodies();
+	if (control.trackEnergy) reportEnergies();
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
 			walls[w]->force[d] = wall.force[std::size_t(d)];
 		walls[w]->origin += scene->dt * walls[w]->velocity;
 	}
+}
+
+/* Terms of the balance under their names in O.energy; O.energy.total() adds them up. */
+void MpmEngine::reportEnergies() const
+{
+	const mpm::Energies& e = m_points->points.energies;
+	for (const auto& [name, value] : std::initializer_list<std::pair<const char*, Real>> {
+	             { "mpmKinetic", e.kinetic },
+	             { "mpmElastic", e.elastic },
+	             { "mpmHardening", e.hardening },
+	             { "mpmDissipation", e.dissipation },
+	             { "mpmExternal", e.external },
+	             { "mpmDamping", e.damping },
+	             { "mpmWalls", e.walls } })
+		scene->energy->setItem_py(name, value);
 }
 
 Real MpmEngine::criticalTimeStep()
@@ -114,7 +144,8 @@ mpm::StepControl MpmEngine::prepare()
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
 	control.largeStrain = largeStrain, control.thinning = thinning;
-	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
+	control.trackEnergy = scene->trackEnergy;
+	control.threads     = ompThreads > 0 ? ompThreads : omp_get_max_threads();
 	return control;
 }
 
@@ -171,7 +202,7 @@ void MpmEngine::prepareSolver()
 	for (const mpm::Law& law : runtime.laws)
 		internals = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
-	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0);
+	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0, scene->trackEnergy);
 }
 
 void MpmEngine::checkPoints(int dim) const
@@ -201,10 +232,11 @@ void MpmEngine::checkPoints(int dim) const
 void MpmEngine::checkEngineOrder()
 {
 	const auto& engines = scene->engines;
-	m_checkedEngines.clear();
+	std::vector<Engine*> order;
 	for (const auto& engine : engines)
-		m_checkedEngines.push_back(engine.get());
-	const std::size_t n = engines.size(), here = std::size_t(std::find(m_checkedEngines.begin(), m_checkedEngines.end(), this) - m_checkedEngines.begin());
+		order.push_back(engine.get());
+	const std::size_t n = engines.size(), here = std::size_t(std::find(order.begin(), order.end(), this) - order.begin());
+	m_checkedEngines.clear(); // a bad order is complained of each time
 	for (std::size_t k = 0; k < n; ++k) {
 		const std::string name    = engines[k]->getClassName();
 		const bool        partial = dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
@@ -216,19 +248,34 @@ void MpmEngine::checkEngineOrder()
 				        + std::to_string((k + step) % n) + ") before MpmEngine (place " + std::to_string(here)
 				        + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
 	}
+	m_checkedEngines = std::move(order);
 }
 
 void MpmEngine::checkStep(const mpm::StepControl& control)
 {
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
-	if (control.dt <= m_checkedStep) return;
+	std::vector<Real> checkedFor { Real(control.scheme) };
+	for (const mpm::Law& law : m_points->runtime.laws)
+		checkedFor.insert(checkedFor.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
+	if (control.dt <= m_checkedStep && checkedFor == m_checkedFor) return;
 	const Real limit = m_solver->criticalTimeStep(control.scheme);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt, "the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
 	m_checkedStep = control.dt;
+	m_checkedFor  = std::move(checkedFor);
 }
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------
+
+namespace {
+	[[noreturn]] void refuseNonFinite(int id, const Vector3r& force, const State& state)
+	{
+		const std::string number = std::to_string(id);
+		if (!force.allFinite()) refuse("O.forces", "f(" + number + ")", force.transpose(), "look at the engine, contact or script that applies it");
+		if (!state.vel.allFinite()) refuse("O.bodies[" + number + "].state", "vel", state.vel.transpose(), "give a finite velocity [m/s]");
+		refuse("O.bodies[" + number + "].state", "pos", state.pos.transpose(), "give a finite position [m]");
+	}
+} // namespace
 
 /* What scripts and other engines have done to the points' bodies since the last step: forces, and state that differs from
 what this engine wrote. */
@@ -253,6 +300,7 @@ void MpmEngine::readBodies()
 			continue;
 		}
 		const Vector3r& force = scene->forces.getForce(id);
+		if (!(force + state->pos + state->vel).allFinite()) refuseNonFinite(id, force, *state);
 		bool            here  = true;
 		for (int d = 0; d < 3; ++d) {
 			const auto axis = std::size_t(d);

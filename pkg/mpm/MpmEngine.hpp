@@ -40,9 +40,11 @@ private:
 	mpm::Solver*                                m_solver = nullptr;
 	std::size_t                                 m_bodies = 0; // points that have one
 	std::size_t                                 m_checkedGeneration = std::size_t(-1), m_checkedCount = 0;
-	Real                                        m_checkedStep  = 0; // steps up to this one are known to be stable
+	Real                                        m_checkedStep  = 0; // steps up to this one are known to be stable ...
+	std::vector<Real>                           m_checkedFor;      // ... with this scheme and these laws
 	std::vector<Engine*>                        m_checkedEngines;
 
+	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
 	mpm::StepControl prepare();
 	void             prepareWalls(int dim);
@@ -52,6 +54,7 @@ private:
 	void             checkStep(const mpm::StepControl& control);
 	void             readBodies();
 	void             writeBodies() const;
+	void             reportEnergies() const;
 	Scene&           currentScene() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);

@@ -252,6 +252,7 @@ py::object MpmPoints::array(const std::string& name)
 	if (name == "mass") return scalar([&](std::size_t p) { return points.mass[p]; });
 	if (name == "volume") return scalar([&](std::size_t p) { return volume(p); });
 	if (name == "plasticStrain") return scalar([&](std::size_t p) { return plasticStrain(p); });
+	if (name == "dissipation") return scalar([&](std::size_t p) { return points.dissipation.empty() ? 0 : points.dissipation[p]; });
 	if (name == "vonMises") return scalar([&](std::size_t p) { return vonMises(p); });
 	if (name == "stress") return matrix([&](std::size_t p) { return stress(p); });
 	if (name == "strain") return matrix([&](std::size_t p) { return strain(p); });
@@ -259,7 +260,7 @@ py::object MpmPoints::array(const std::string& name)
 	if (name == "F") return matrix([&](std::size_t p) { return deformation(p); });
 	throw std::invalid_argument(
 	        "mpm.array('" + name
-	        + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain' or 'vonMises'");
+	        + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain', 'dissipation' or 'vonMises'");
 }
 
 } // namespace yade

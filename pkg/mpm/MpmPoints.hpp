@@ -10,6 +10,12 @@
 #include <unordered_map>
 
 namespace boost::serialization {
+template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e, const unsigned int)
+{
+	archive& make_nvp("kinetic", e.kinetic) & make_nvp("elastic", e.elastic) & make_nvp("hardening", e.hardening);
+	archive& make_nvp("dissipation", e.dissipation) & make_nvp("external", e.external) & make_nvp("damping", e.damping);
+	archive& make_nvp("walls", e.walls) & make_nvp("started", e.started);
+}
 /* The columns under their own names; advance is never pending when a scene is saved, forces are YADE's. */
 template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
 {
@@ -17,7 +23,8 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("mass", points.mass) & make_nvp("volume0", points.volume0) & make_nvp("size", points.size);
 	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
-	archive& make_nvp("thicknessStretch", points.thicknessStretch);
+	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
+	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 } // namespace boost::serialization
 

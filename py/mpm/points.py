@@ -41,15 +41,15 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	if callable(region) and hasattr(region, 'aabb'):
 		lower, upper = (numpy.array([float(x) for x in corner]) for corner in region.aabb())
 		inside = region
+		if thickness is not None: lower, upper = lower[:2], upper[:2]
 	else:
 		try:
 			lower, upper = (numpy.array([float(x) for x in corner]) for corner in region)
 		except (TypeError, ValueError):
 			raise ValueError('mpm.fill: region = %r: give two corners, ((x0,y0),(x1,y1)) or ((x0,y0,z0),(x1,y1,z1)), or a predicate of yade.pack' % (region,)) from None
-	if thickness is not None and lower.size == 3: lower, upper = lower[:2], upper[:2]
 	if lower.size != upper.size or lower.size != (3 if thickness is None else 2):
 		raise ValueError('mpm.fill: region = %r: %s' % (region, 'a 3D region needs two corners of three coordinates; give a thickness for a plane one'
-			if thickness is None else 'give two corners of two coordinates'))
+			if thickness is None else 'with a thickness the region is plane; give two corners of two coordinates'))
 
 	axes = [_lattice(lower[d], upper[d], spacing) for d in range(lower.size)]
 	if thickness is not None: axes.append(numpy.zeros(1))
@@ -68,7 +68,8 @@ def array(name):
 	without a body.
 
 	:param str name: 'id' (N,), 'position' [m], 'velocity' [m/s] (N,3), 'mass' [kg], 'volume' [m3], 'plasticStrain' [-],
-		'vonMises' [Pa] (N,), 'stress', 'backStress' [Pa], 'strain', 'F' [-] (N,3,3); see :yref:`MpmState` for their meaning
+		'vonMises' [Pa], 'dissipation' (heat per undeformed volume [J/m3], kept while O.trackEnergy) (N,), 'stress',
+		'backStress' [Pa], 'strain', 'F' [-] (N,3,3); see :yref:`MpmState` for their meaning
 	:raises ValueError: if there is no such quantity
 	"""
 	data, kind, shape = _points().array(name)

@@ -5,7 +5,7 @@
 # Sourced by scripts/demo and scripts/test, or run by itself:  scripts/lib/setup.sh [target ...]
 #
 #   mpmInstall            installs what is missing of mpmPackages
-#   mpmBuild [target...]  configures where needed and builds
+#   mpmBuild [target...]  configures where needed and builds; mpmPreset=sanitize mpmBuild: the kernel with sanitizers, in build/sanitize
 #   mpmSetup [target...]  both
 
 mpmRoot=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
@@ -63,18 +63,20 @@ Install them as root, then start this again:
 }
 
 mpmBuild() {
-	local log=$mpmBuildFolder/setup.log target targets=()
+	local folder=$mpmBuildFolder preset=${mpmPreset:-release} log target targets=()
+	[ "$preset" = release ] || folder=$mpmBuildFolder/$preset
+	log=$folder/setup.log
 	for target in "$@"; do targets+=(--target "$target"); done
-	mkdir -p "$mpmBuildFolder"
-	if [ ! -f "$mpmBuildFolder/build.ninja" ] && [ ! -f "$mpmBuildFolder/Makefile" ]; then
-		if ! cmake -S "$mpmRoot" -B "$mpmBuildFolder" -G Ninja >"$log" 2>&1; then
+	mkdir -p "$folder"
+	if [ ! -f "$folder/build.ninja" ]; then
+		if ! (cd "$mpmRoot" && cmake --preset "$preset" -B "$folder" -G Ninja) >"$log" 2>&1; then
 			tail -n 30 "$log" >&2
 			mpmFail "CMake failed; all it said is in $log"
 			return 1
 		fi
-		echo "yade-mpm: building in $mpmBuildFolder (some minutes the first time)" >&2
+		echo "yade-mpm: building in $folder (some minutes the first time)" >&2
 	fi
-	if ! cmake --build "$mpmBuildFolder" --parallel "${MPM_JOBS:-$(nproc)}" "${targets[@]}" >"$log" 2>&1; then
+	if ! cmake --build "$folder" --parallel "${MPM_JOBS:-$(nproc)}" "${targets[@]}" >"$log" 2>&1; then
 		grep -E -A4 'error|Error|FAILED|undefined reference' "$log" | head -n 40 >&2 || tail -n 30 "$log" >&2
 		mpmFail "the build failed; all it said is in $log"
 		return 1

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "kernel/Kinematics.hpp"
 #include "kernel/Solver.hpp"
 #include <functional>
 
 namespace yade::mpm {
+
+constexpr std::array<ShapeKind, 4> allShapes { ShapeKind::linear, ShapeKind::gimp, ShapeKind::quadratic, ShapeKind::cubic };
+constexpr std::array<Scheme, 3>    allSchemes { Scheme::usf, Scheme::usl, Scheme::musl };
+constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid };
+inline const char*                 name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
+inline const char*                 name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
+inline const char* name(Analysis a) { return std::array<const char*, 4> { "uniaxial", "plane stress", "plane strain", "3D" }[std::size_t(a)]; }
 
 /* A scene of the kernel alone: what the engine does in YADE, for tests. */
 struct Scene {
@@ -66,9 +74,17 @@ struct Scene {
 	{
 		int internals = 0;
 		for (const Law& law : laws)
-			internals = std::max(internals, Internals::of(law.kind).columns(stressComponents(analysis)));
-		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning, forces);
+			internals = std::max(internals, Internals::of(law).columns(stressComponents(analysis)));
+		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning, forces, control.trackEnergy);
 		solver = makeSolver(analysis, shape, cellSize, points, laws, walls);
+	}
+	/* The same points, laws and walls under a solver of their own: a saved scene that has been loaded. */
+	Scene copy(Analysis analysis, ShapeKind shape, double cellSize) const
+	{
+		Scene other;
+		other.points = points, other.laws = laws, other.walls = walls, other.control = control;
+		other.solver = makeSolver(analysis, shape, cellSize, other.points, other.laws, other.walls);
+		return other;
 	}
 	/* Current volume of a point. */
 	double volume(std::size_t p) const
@@ -78,7 +94,39 @@ struct Scene {
 		double            J   = F[0][p];
 		if (dim == 2) J = F[0][p] * F[3][p] - F[1][p] * F[2][p];
 		if (!points.thicknessStretch.empty()) J *= points.thicknessStretch[p];
+		if (dim == 3) J = determinant<3>(std::array<double, 9> { F[0][p], F[1][p], F[2][p], F[3][p], F[4][p], F[5][p], F[6][p], F[7][p], F[8][p] }.data());
 		return points.volume0[p] * J;
+	}
+	double kineticEnergy() const
+	{
+		double sum = 0;
+		for (std::size_t p = 0; p < points.count(); ++p)
+			for (int d = 0; d < 3; ++d)
+				sum += .5 * points.mass[p] * points.velocity[d][p] * points.velocity[d][p];
+		return sum;
+	}
+	std::array<double, 3> momentum() const
+	{
+		std::array<double, 3> sum {};
+		for (std::size_t p = 0; p < points.count(); ++p)
+			for (int d = 0; d < 3; ++d)
+				sum[d] += points.mass[p] * points.velocity[d][p];
+		return sum;
+	}
+	double mass() const
+	{
+		double sum = 0;
+		for (double m : points.mass)
+			sum += m;
+		return sum;
+	}
+	/* position[id]: where the point of this id stands in the arrays. */
+	std::vector<std::size_t> byId() const
+	{
+		std::vector<std::size_t> at(points.count());
+		for (std::size_t p = 0; p < at.size(); ++p)
+			at[std::size_t(points.id[p])] = p;
+		return at;
 	}
 	void step()
 	{

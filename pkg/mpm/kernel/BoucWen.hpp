@@ -143,7 +143,7 @@ namespace detail {
 			H = flowRatio(law, y, reversal, De, m, f, radius, mDe);
 		else {
 			const double H2 = mDe > 0 ? law.beta + law.gamma : law.beta - law.gamma;
-			H               = H2 != 0 ? power(f / radius, law.n) * H2 : 0;
+			H               = H2 != 0 ? power(f * (1 / law.yieldStress), law.n) * H2 : 0;
 		}
 		if (!(std::abs(H) > 1e-3 * law.tolerance)) return; // elastic within the tolerance
 
@@ -156,8 +156,8 @@ namespace detail {
 			if (!law.degrades()) return;
 			// the compliance may grow by no more than the plastic work pays for
 			const double unit = law.elastic.young / (law.yieldStress * law.yieldStress), stored = complianceProduct<S>(law.elastic, y);
-			dy[Y::e]          = unit * q * f2;
-			dy[Y::compliance] = std::min(law.stiffnessDegradation * unit, stored > 0 ? 2 / stored : 0) * q * f2;
+			dy[Y::e]           = unit * q * f2;
+			dy[Y::compliance]  = std::min(law.stiffnessDegradation * unit, stored > 0 ? 2 / stored : 0) * q * f2;
 			dy[Y::dissipation] = std::max(0., q * f2 - .5 * dy[Y::compliance] * stored);
 		}
 	}
@@ -181,7 +181,7 @@ namespace detail {
 		double        De[N], part[N], partStrain[N], dy1[size], dy2[size], euler[size], xi[N];
 		S::elastic(law.elastic, strain, De);
 
-		const double admitted = law.tolerance * law.tolerance * law.yieldStress * law.yieldStress; // of |dy2 - dy1|^2
+		const double admitted = .25 * law.tolerance * law.tolerance * law.yieldStress * law.yieldStress; // of |dy2 - dy1|^2
 		double       done = 0, step = 1;
 		bool         failed = false;
 		while (done < 1) {
@@ -255,7 +255,7 @@ where given, counts the sub-steps.
 
 Sub-steps are modified Euler pairs: Sloan, IJNME 24 (1987) 893; Sloan, Abbo & Sheng, Eng. Comput. 18 (2001) 121. Half
 the difference of the two slopes' stresses, over sigma_y, estimates the error of the first-order member and is kept below
-half the tolerance; the second-order member is carried on. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
+a quarter of the tolerance; the second-order member is carried on. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
 [0.1, 2], and does not grow right after a failure. Loading forgets errors, so that those of a path do not add up. */
 template <class S>
 void boucWenUpdate(const BoucWenParameters& law, const double* strain, double* sigma, double* internal, Response* response = nullptr, int* subSteps = nullptr)

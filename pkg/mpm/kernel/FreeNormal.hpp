@@ -26,32 +26,26 @@ template <class S, class Update> void updateWithFreeNormals(const Hooke& C, Upda
                 update(full, s, p3, r);
                 return s[2];
 	};
-	double size = 0;
+	double size = 0, stress = 0, b = 0;
 	for (int k = 0; k < S::N; ++k)
-		size = std::max(size, std::abs(strain[k]));
-	if (size > 0) {
-		// from the elastic root outwards until the stress changes sign
-		const double modulus = C.lame + 2 * C.shear, goal = 1e-14 * modulus * size;
-		double       a = 0, fa = freeStress(a);
-		for (int k = 0; k < normals<S>(); ++k)
-			a -= C.poisson / (1 - C.poisson) * strain[k];
-		fa       = freeStress(a);
-		double b = a, fb = fa, width = std::abs(fa) / modulus + 1e-3 * size;
-		while (fb * fa > 0 && std::isfinite(width))
-			a = b, fa = fb, b -= std::copysign(width, fa), width *= 2, fb = freeStress(b);
-		double last = fb;
-		for (int iteration = 0; iteration < 200 && std::abs(last) > goal && std::abs(b - a) > 1e-16 * size; ++iteration) {
-			const double e = b - fb * (b - a) / (fb - fa);
-			last           = freeStress(e);
-			if (last * fb < 0)
-				a = b, fa = fb;
-			else
-				fa *= .5;
-			b = e, fb = last;
-		}
-		response.freeStrain += b;
-	} else
-		freeStress(0);
+		size = std::max(size, std::abs(strain[k])), stress = std::max(stress, std::abs(sigma[k]));
+	for (int k = 0; k < normals<S>(); ++k)
+		b -= (normals<S>() == 1 ? C.poisson : C.poisson / (1 - C.poisson)) * strain[k];
+
+	// from the elastic root outwards until the stress changes sign, then inwards
+	const double modulus = C.lame + 2 * C.shear, goal = 1e-14 * modulus * size + 1e-15 * stress;
+	double       fb = freeStress(b), a = b, fa = fb, width = std::abs(fb) / modulus;
+	while (std::abs(fb) > goal && fb * fa > 0 && std::isfinite(width))
+		a = b, fa = fb, b -= std::copysign(width, fa), width *= 2, fb = freeStress(b);
+	for (int iteration = 0; iteration < 200 && std::abs(fb) > goal && std::abs(b - a) > 1e-16 * size; ++iteration) {
+		const double e = b - fb * (b - a) / (fb - fa), fe = freeStress(e);
+		if (fe * fb < 0)
+			a = b, fa = fb;
+		else
+			fa *= .5;
+		b = e, fb = fe;
+	}
+	response.freeStrain += b;
 	for (int k = 0; k < S::N; ++k)
 		sigma[k] = s[S::solid[k]];
 	p = p3;

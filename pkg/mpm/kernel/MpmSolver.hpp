@@ -28,8 +28,11 @@ public:
 	void step(const StepControl& control) override
 	{
 		if (m_points.count() == 0) return;
+		m_control         = control;
+		const bool energy = control.trackEnergy;
+		if (energy) startEnergies();
 		layGrid();
-		m_control = control;
+		if (energy) m_tracking.tiles.resize(m_grid.tiles().size());
 
 		clear(m_mass), clear(m_momentum), clear(m_force);
 		if (control.scheme == Scheme::usf) {
@@ -45,7 +48,10 @@ public:
 		} else {
 			forEachTile([&](std::size_t t) { pointsToGrid<false, true>(t); });
 		}
+		if (energy) keepSums();
 		updateNodes();
+		const double kineticBefore = energy ? kineticEnergy() : 0;
+		if (energy) trackWork();
 
 		clear(m_velocity);
 		if (control.scheme == Scheme::musl) {
@@ -59,6 +65,11 @@ public:
 		m_pending       = true;
 		if (control.scheme == Scheme::usf) finishPositions();
 		checkPoints();
+		if (energy) {
+			m_points.energies.kinetic = .5 * (kineticBefore + kineticEnergy());
+			finish();
+			collectTiles();
+		}
 	}
 
 	void finish() override
@@ -100,6 +111,7 @@ private:
 	std::vector<Wall>&      m_walls;
 	StepControl             m_control, m_stressControl; // of the current step, and of the one whose stress update is pending
 	Geometry<dim>           m_geometry;
+	std::vector<Wall::Kind> m_kinds; // of the walls, as the bands have been built for
 	Grid                    m_grid;
 	WallBand<dim>           m_band;
 	Column                  m_mass;
@@ -107,15 +119,33 @@ private:
 	std::vector<TileReport> m_reports;
 	bool                    m_sorted = false, m_pending = false;
 
+	struct StressWork;
+	struct Tracking {                              // empty unless energies are tracked
+		std::vector<Energies> tiles;           // what the passes have found, summed in the order of tiles
+		Column                mass;            // of the nodes, not folded
+		NodeVector<dim>       force, external; // likewise; all forces, and the external ones
+		NodeVector<dim>       damping;         // acceleration that damping takes away
+	};
+	Tracking m_tracking;
+
+	void   startEnergies();
+	void   keepSums();
+	void   trackWork();
+	void   collectTiles();
+	double kineticEnergy() const;
+
 	// ---- the grid -------------------------------------------------------------------------------------------------
 
 	/* Lays the grid through walls and points; what of it still fits is kept. */
 	void layGrid()
 	{
 		const Geometry<dim> geometry = makeGeometry<dim>(m_cellSize, m_walls);
-		if (m_sorted && geometry == m_geometry) return;
+		std::vector<Wall::Kind> kinds;
+		for (const Wall& wall : m_walls)
+			kinds.push_back(wall.kind);
+		if (m_sorted && geometry == m_geometry && kinds == m_kinds) return;
 		finish(); // the pending update belongs to the old grid
-		m_geometry = geometry;
+		m_geometry = geometry, m_kinds = kinds;
 
 		Points&                           P = m_points;
 		std::array<std::vector<int>, dim> bases;
@@ -288,18 +318,20 @@ private:
 	/* f_p + m_p g and V_p sigma_p, with the current volume in large strain. */
 	void pointForces(std::size_t p, double (&fp)[dim], double (&Vs)[dim][dim]) const
 	{
-		double V = m_points.volume0[p];
-		if (m_control.largeStrain) {
-			double F[dim * dim];
-			for (int k = 0; k < dim * dim; ++k)
-				F[k] = m_points.deformation[k][p];
-			V *= determinant<dim>(F) * (m_points.thicknessStretch.empty() ? 1 : m_points.thicknessStretch[p]);
-		}
+		double F[dim * dim];
+		for (int k = 0; k < dim * dim; ++k)
+			F[k] = m_points.deformation[k][p];
+		const double V = volume(p, F);
 		for (int d = 0; d < dim; ++d) {
 			fp[d] = m_points.mass[p] * m_control.gravity[d] + (m_points.force.empty() ? 0 : m_points.force[d][p]);
 			for (int e = 0; e < dim; ++e)
 				Vs[d][e] = V * m_points.stress[component(d, e)][p];
 		}
+	}
+	double volume(std::size_t p, const double (&F)[dim * dim]) const
+	{
+		if (!m_control.largeStrain) return m_points.volume0[p];
+		return m_points.volume0[p] * determinant<dim>(F) * (m_points.thicknessStretch.empty() ? 1 : m_points.thicknessStretch[p]);
 	}
 	/* Where sigma_de stands among the components of the stress state. */
 	static constexpr int component(int d, int e)
@@ -314,7 +346,8 @@ private:
 	{
 		m_band.fold(m_walls, m_mass, m_momentum, m_force, m_control.dt);
 		const double      dt = m_control.dt, damping = m_control.damping, least = leastMass();
-		const std::size_t count = m_mass.size();
+		const std::size_t count  = m_mass.size();
+		const bool        energy = m_control.trackEnergy;
 #pragma omp parallel for schedule(static) num_threads(m_control.threads) if (m_control.threads > 1 && count > 20000)
 		for (std::size_t i = 0; i < count; ++i)
 			for (int d = 0; d < dim; ++d) {
@@ -324,8 +357,10 @@ private:
 					continue;
 				}
 				const double start = v / m_mass[i], a = dv / m_mass[i], trend = a * (start + .5 * dt * a);
-				dv = dt * a * (1 - damping * ((trend > 0) - (trend < 0)));
-				v  = start + dv;
+				const double braking = damping * a * ((trend > 0) - (trend < 0));
+				dv                   = dt * (a - braking);
+				if (energy) m_tracking.damping[d][i] = braking;
+				v = start + dv;
 			}
 		m_band.unfold(m_walls, m_momentum, true);
 		m_band.unfold(m_walls, m_force, false);
@@ -431,8 +466,6 @@ private:
 			internal[k] = m_points.internal[k][p];
 		for (int k = 0; k < dim * dim; ++k)
 			F[k] = m_points.deformation[k][p];
-		const double before = sigma[0] + sigma[N > 1 ? 1 : 0];
-
 		Increment<S> increment;
 		if (m_stressControl.largeStrain) {
 			increment.large(G);
@@ -441,14 +474,17 @@ private:
 				increment.rotate(internal + k * N);
 		} else
 			increment.small(G);
-		updateStress<S>(law, increment.strain, sigma, internal);
-		advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
-
-		if (std::is_same_v<S, PlaneStress> && m_stressControl.thinning) {
-			// plastic flow keeps the volume: tr eps = (1 - 2 nu)/E tr sigma, and eps_zz follows
-			const double trace = (1 - 2 * law.elastic.poisson) / law.elastic.young * (sigma[0] + sigma[1] - before);
-			const double zz    = trace - increment.strain[0] - increment.strain[1];
-			m_points.thicknessStretch[p] *= (1 + .5 * zz) / (1 - .5 * zz);
+		const bool thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning;
+		if (m_stressControl.trackEnergy || thinning) {
+			Response         response;
+			const StressWork work(*this, law, p, F, increment.strain, sigma, internal);
+			updateStress<S>(law, increment.strain, sigma, internal, &response);
+			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * response.freeStrain) / (1 - .5 * response.freeStrain);
+			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
+			if (m_stressControl.trackEnergy) work.add(F, sigma, internal, response, m_tracking.tiles[t]);
+		} else {
+			updateStress<S>(law, increment.strain, sigma, internal);
+			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
 		}
 		for (int k = 0; k < N; ++k)
 			m_points.stress[k][p] = sigma[k];
@@ -526,4 +562,5 @@ private:
 
 } // namespace yade::mpm
 
+#include "EnergyBalance.hpp"
 #include "StableStep.hpp"

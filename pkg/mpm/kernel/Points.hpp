@@ -11,10 +11,27 @@ namespace yade::mpm {
 using Column  = std::vector<double>;
 using Columns = std::vector<Column>; // one column a component
 
+/* Energies of a scene [J]. Their sum is constant but for the error of the time integration: what leaves the points (work
+against walls, damping) and what comes in (external work, negative) are terms of it.
+
+They are those of the start of a step, where the leapfrog scheme knows positions and stress: velocities belong half a step
+before and after it, and the kinetic energy is the mean of the two. So the sum is accurate to second order in dt. */
+struct Energies {
+	double kinetic = 0, elastic = 0, hardening = 0, dissipation = 0, external = 0, damping = 0, walls = 0;
+	bool   started = false; // whether they are being tracked
+
+	double total() const { return kinetic + elastic + hardening + dissipation + external + damping + walls; }
+	void   add(const Energies& o)
+	{
+		elastic += o.elastic, hardening += o.hardening, dissipation += o.dissipation;
+		external += o.external, damping += o.damping, walls += o.walls;
+	}
+};
+
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), fixed (no prescribed motion). */
+thicknessStretch (no thinning), dissipation (no energies), fixed (no prescribed motion). */
 struct Points {
 	std::vector<int>          id;                             // of the point: its body's, or negative where it has none
 	std::vector<int>          material;                       // index into the scene's table of laws
@@ -25,6 +42,8 @@ struct Points {
 	Columns                   advance;                        // displacement of the current step, not yet in position while its stress update is pending
 	Columns                   force;                          // external, but for gravity [N]
 	Column                    thicknessStretch;               // F_zz of thinning plane stress
+	Column                    dissipation;                    // heat per undeformed volume [J/m3], where energies are tracked
+	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
 	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
 
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
@@ -40,6 +59,7 @@ struct Points {
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
+		visit(dissipation);
 	}
 	template <class Visitor> void forEachIndexColumn(Visitor&& visit)
 	{
@@ -57,8 +77,8 @@ struct Points {
 			position[d].push_back(x[d]), velocity[d].push_back(v[d]);
 	}
 	/* Gives every point the columns of an analysis: dim axes, stresses of the given number of components, internal
-	variables, and where asked for the thickness stretch and the external forces. New entries are those of a point at rest. */
-	void prepare(int dim, int components, int internals, bool thinning, bool forces)
+	variables, and where asked for the thickness stretch, the external forces and the dissipation. New entries are those of a point at rest. */
+	void prepare(int dim, int components, int internals, bool thinning, bool forces, bool energy)
 	{
 		const std::size_t n     = count();
 		auto              shape = [n](Columns& columns, int number, auto&& initial) {
@@ -71,6 +91,7 @@ struct Points {
 		shape(deformation, dim * dim, [dim](int k) { return k % (dim + 1) == 0 ? 1. : 0.; });
 		shape(force, forces ? dim : 0, zero);
 		thicknessStretch.resize(thinning ? n : 0, 1.);
+		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
 	}
 

@@ -24,6 +24,7 @@ struct StepControl {
 	bool                  largeStrain = true;
 	bool                  thinning    = false; // plane stress: the thickness follows the strain
 	int                   threads     = 1;
+	bool                  trackEnergy = false; // keep Points::energies and Points::dissipation
 };
 
 /* A step that cannot go on: which point, where and why. */

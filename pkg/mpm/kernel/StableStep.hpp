@@ -54,14 +54,17 @@ template <class S, class Shape> double MpmSolver<S, Shape>::criticalTimeStep(Sch
 			for (std::size_t p = tile.begin; p < tile.end; ++p) {
 				const Weights w   = weights(tile, p);
 				const Law&    law = m_laws[m_points.material[p]];
-				double        G[dim * dim], s[N], Vs[dim][dim];
+				double        G[dim * dim], F[dim * dim], s[N], Vs[dim][dim];
 				Increment<S>  increment;
 				displacementGradient(w, v, 1, G);
 				increment.small(G);
 				S::elastic(law.elastic, increment.strain, s);
+				for (int k = 0; k < dim * dim; ++k)
+					F[k] = m_points.deformation[k][p];
+				const double V = law.stiffnessBound() * volume(p, F);
 				for (int d = 0; d < dim; ++d)
 					for (int e = 0; e < dim; ++e)
-						Vs[d][e] = law.stiffnessBound() * m_points.mass[p] / law.density * s[component(d, e)];
+						Vs[d][e] = V * s[component(d, e)];
 				forEachNode(w, [&](int i, double, const std::array<double, dim>& grad) {
 					for (int d = 0; d < dim; ++d)
 						for (int e = 0; e < dim; ++e)

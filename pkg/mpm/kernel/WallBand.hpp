@@ -44,32 +44,28 @@ public:
 		for (ReactionNode& r : m_reaction) {
 			r.mass = mass[r.node];
 			for (int d = 0; d < dim; ++d)
-				if (r.wall[d] >= 0) walls[r.wall[d]].force[d] += force[d][r.node];
+				r.force[d] = force[d][r.node];
 		}
 		for (Band& band : m_bands) {
 			if (band.friction) decideContact(band, walls[band.wall], mass, momentum, force, dt);
 			for (Column_& c : band.columns) {
 				if (!c.folded) continue;
+				c.ghostMass = c.ghost >= 0 ? mass[c.ghost] : 0;
 				foldMomentum(c, band, walls[band.wall], mass, momentum);
 				foldForce(c, band, force);
-				if (c.mirror >= 0 && c.ghost >= 0) mass[c.mirror] += mass[c.ghost];
+				if (c.mirror >= 0 && c.ghost >= 0) mass[c.mirror] += c.ghostMass;
 			}
 			if (band.friction) applyFriction(band, walls[band.wall], mass, momentum, force, dt);
 		}
-		for (const ReactionNode& r : m_reaction) // wall force = force on the nodes - mass * their acceleration
-			if (mass[r.image] > 0)
-				for (int d = 0; d < dim; ++d)
-					if (r.wall[d] >= 0) walls[r.wall[d]].force[d] -= r.mass * r.sign[d] * force[d][r.image] / mass[r.image];
+		clearPlanes(force); // a wall one cell further has folded on them
+		addReactions(walls, mass, force);
 	}
-	/* Folds a momentum with the masses that fold() has left. */
+	/* Folds a momentum with the masses that fold() has met. */
 	void foldMomentum(const std::vector<Wall>& walls, const Column& mass, NodeVector<dim>& momentum) const
 	{
 		for (const Band& band : m_bands)
 			for (const Column_& c : band.columns)
-				if (c.folded) {
-					// mass[mirror] already holds the ghost's
-					foldMomentum(c, band, walls[band.wall], mass, momentum);
-				}
+				if (c.folded) foldMomentum(c, band, walls[band.wall], mass, momentum);
 	}
 	/* Folds mass and force alone, walls at rest; contacts let go. For the stable time step. */
 	void foldAtRest(Column* mass, NodeVector<dim>& force) const
@@ -82,16 +78,25 @@ public:
 			}
 		}
 	}
+	/* Folds a momentum increment, which vanishes at the walls. */
+	void foldMomentumAtRest(NodeVector<dim>& momentum) const
+	{
+		for (const Band& band : m_bands)
+			for (const Column_& c : band.columns)
+				if (c.folded) foldForce(c, band, momentum);
+	}
 	/* Images of a velocity (moving: in the wall's frame) or of a velocity increment. */
 	void unfold(const std::vector<Wall>& walls, NodeVector<dim>& field, bool moving) const
 	{
+		for (auto band = m_bands.rbegin(); band != m_bands.rend(); ++band) // planes first: they may be mirror images themselves
+			for (const Column_& c : band->columns)
+				for (int d = 0; d < dim && c.folded && c.plane >= 0; ++d)
+					if (band->odd[d]) field[d][c.plane] = moving ? walls[band->wall].velocity[d] : 0;
 		for (auto band = m_bands.rbegin(); band != m_bands.rend(); ++band)
 			for (const Column_& c : band->columns) {
-				if (!c.folded) continue;
+				if (!c.folded || c.ghost < 0) continue;
 				for (int d = 0; d < dim; ++d) {
-					const double w = moving && band->odd[d] ? walls[band->wall].velocity[d] : 0;
-					if (c.plane >= 0 && band->odd[d]) field[d][c.plane] = w;
-					if (c.ghost < 0) continue;
+					const double w     = moving && band->odd[d] ? walls[band->wall].velocity[d] : 0;
 					const double image = c.mirror >= 0 ? field[d][c.mirror] : w;
 					field[d][c.ghost]  = band->odd[d] ? 2 * w - image : image;
 				}
@@ -117,8 +122,9 @@ public:
 private:
 	struct Column_ { // of nodes through the wall: on the plane, one behind it, its mirror image; -1 where there is none
 		std::ptrdiff_t plane, ghost, mirror;
-		bool           folded, outside; // outside: behind another wall
+		bool           folded, outside; // outside: behind a wall that is folded before
 		double         reaction;        // normal force of the material on the wall, pressing > 0
+		double         ghostMass;       // when it was folded: walls that come later fold on it
 	};
 	struct Band {
 		std::size_t           wall;
@@ -126,11 +132,18 @@ private:
 		std::array<bool, dim> odd;
 		std::vector<Column_>  columns;
 	};
-	struct ReactionNode {
-		std::ptrdiff_t       node, image; // image: its mirror image in front of all walls, or itself
-		std::array<int, dim> wall, sign;  // which wall takes a component, or -1; sign of the image's acceleration, 0 on a plane
-		double               mass;        // of the node alone, before folding
+	struct Cover { // of a node by a wall: the node lies on the plane or beside it
+		int wall;
+		int band, column; // whose contact decides, of a friction wall; -1: none
 	};
+	struct ReactionNode {
+		std::ptrdiff_t             node;
+		std::array<Cover, 2 * dim> covers;
+		int                        count;
+		double                     mass; // of the node alone, before folding
+		std::array<double, dim>    force;
+	};
+	NodeVector<dim>           m_acceleration; // of the reaction nodes
 	std::vector<Band>         m_bands;
 	std::vector<ReactionNode> m_reaction;
 	double                    m_N0 = 1, m_N1 = 0;
@@ -156,8 +169,9 @@ private:
 			if (!onPlane && at(0) >= 0) return; // its column is counted at the plane
 			bool outside = false;
 			for (const Wall& other : walls)
-				if (other.axis != wall.axis) outside = outside || (node[other.axis] - planeNode(g, other)) * other.side < 0;
-			band.columns.push_back({ at(0), at(-1), at(1), wall.kind != Wall::Kind::friction, outside, 0 });
+				if (other.axis != wall.axis && (other.kind != Wall::Kind::friction || &other < &wall))
+					outside = outside || (node[other.axis] - planeNode(g, other)) * other.side < 0;
+			band.columns.push_back({ at(0), at(-1), at(1), wall.kind != Wall::Kind::friction, outside, 0, 0 });
 		});
 		return band;
 	}
@@ -172,32 +186,64 @@ private:
 			}
 	}
 
-	/* Which wall takes which component of the reaction at a node: the wall normal to the component, else a fixed wall. */
+	/* Nodes through which a wall may act, with the walls that cover them. */
 	void collectReactionNodes(const TileGrid<dim>& grid, const Geometry<dim>& g, const std::vector<Wall>& walls)
 	{
-		forEachNode(grid, [&](const typename TileGrid<dim>::Index& node, std::ptrdiff_t at) {
-			ReactionNode r { at, at, {}, {}, 0 };
-			r.wall.fill(-1), r.sign.fill(1);
-			auto image   = node;
-			bool covered = false;
-			for (std::size_t w = 0; w < walls.size(); ++w) {
-				const Wall& wall = walls[w];
-				if (wall.kind == Wall::Kind::friction) continue;
-				const int depth = (node[wall.axis] - planeNode(g, wall)) * wall.side;
-				if (depth < -1 || depth > 1) continue;
-				covered = true;
-				if (depth < 0) image[wall.axis] = planeNode(g, wall) - depth * wall.side;
+		using Index = typename TileGrid<dim>::Index;
+		auto depth  = [&](const Index& node, const Wall& wall) { return (node[wall.axis] - planeNode(g, wall)) * wall.side; };
+		std::vector<std::vector<std::pair<std::ptrdiff_t, int>>> feet(m_bands.size()); // columns of contacts, by their node on the plane
+		for (std::size_t b = 0; b < m_bands.size(); ++b)
+			for (std::size_t c = 0; m_bands[b].friction && c < m_bands[b].columns.size(); ++c)
+				feet[b].push_back({ m_bands[b].columns[c].plane, int(c) });
+		for (auto& f : feet)
+			std::sort(f.begin(), f.end());
+		forEachNode(grid, [&](const Index& node, std::ptrdiff_t at) {
+			ReactionNode r { at, {}, 0, 0, {} };
+			for (std::size_t b = 0; b < m_bands.size() && r.count < 2 * dim; ++b) {
+				const Wall& wall = walls[m_bands[b].wall];
+				if (std::abs(depth(node, wall)) > 1) continue;
+				Cover cover { int(m_bands[b].wall), int(b), -1 };
+				if (m_bands[b].friction) {
+					Index foot      = node; // of the column, in front of the other walls
+					foot[wall.axis] = planeNode(g, wall);
+					for (const Wall& other : walls)
+						if (other.axis != wall.axis && depth(foot, other) < 0)
+							foot[other.axis] = 2 * planeNode(g, other) - foot[other.axis];
+					const std::pair<std::ptrdiff_t, int> key { grid.find(foot), 0 };
+					const auto                           column = std::lower_bound(feet[b].begin(), feet[b].end(), key);
+					if (key.first >= 0 && column != feet[b].end() && column->first == key.first) cover.column = column->second;
+				}
+				r.covers[r.count++] = cover;
+			}
+			if (r.count > 0) m_reaction.push_back(r);
+		});
+		for (Column& c : m_acceleration)
+			c.assign(m_reaction.empty() ? 0 : grid.nodeCount(), 0);
+	}
+	/* Force on a wall = force on the nodes - their mass times their acceleration. A component is taken by the wall normal to
+	it, else by a fixed wall, else by friction. */
+	void addReactions(std::vector<Wall>& walls, const Column& mass, const NodeVector<dim>& force)
+	{
+		for (const ReactionNode& r : m_reaction)
+			for (int d = 0; d < dim; ++d)
+				m_acceleration[d][r.node] = mass[r.node] > 0 ? force[d][r.node] / mass[r.node] : 0;
+		unfold(walls, m_acceleration, false);
+		for (const ReactionNode& r : m_reaction) {
+			std::array<int, dim> taker, rank {};
+			taker.fill(-1);
+			for (int k = 0; k < r.count; ++k) {
+				const Cover& cover   = r.covers[k];
+				const Wall&  wall    = walls[cover.wall];
+				const bool   contact = wall.kind == Wall::Kind::friction;
+				const bool   acts    = !contact || (cover.column >= 0 && m_bands[cover.band].columns[cover.column].folded);
 				for (int d = 0; d < dim; ++d) {
-					const bool normal = d == wall.axis, odd = normal || wall.kind == Wall::Kind::fixed;
-					if (!odd) continue;
-					r.sign[d] *= depth == 0 ? 0 : depth;
-					if (normal || r.wall[d] < 0) r.wall[d] = int(w);
+					const int mine = acts ? (d == wall.axis ? 4 : wall.kind == Wall::Kind::fixed ? 3 : contact ? 2 : 0) : 1;
+					if (mine > rank[d]) rank[d] = mine, taker[d] = cover.wall;
 				}
 			}
-			if (!covered) return;
-			r.image = grid.find(image);
-			if (r.image >= 0) m_reaction.push_back(r);
-		});
+			for (int d = 0; d < dim; ++d)
+				if (taker[d] >= 0) walls[taker[d]].force[d] += r.force[d] - r.mass * m_acceleration[d][r.node];
+		}
 	}
 
 	static void foldMomentum(const Column_& c, const Band& band, const Wall& wall, const Column& mass, NodeVector<dim>& momentum)
@@ -207,8 +253,15 @@ private:
 			if (c.plane >= 0 && band.odd[d]) momentum[d][c.plane] = mass[c.plane] * w;
 			if (c.mirror < 0 || c.ghost < 0) continue;
 			const double ghost = momentum[d][c.ghost];
-			momentum[d][c.mirror] += band.odd[d] ? 2 * mass[c.ghost] * w - ghost : ghost;
+			momentum[d][c.mirror] += band.odd[d] ? 2 * c.ghostMass * w - ghost : ghost;
 		}
+	}
+	void clearPlanes(NodeVector<dim>& force) const
+	{
+		for (const Band& band : m_bands)
+			for (const Column_& c : band.columns)
+				for (int d = 0; d < dim && c.folded && c.plane >= 0; ++d)
+					if (band.odd[d]) force[d][c.plane] = 0;
 	}
 	static void foldForce(const Column_& c, const Band& band, NodeVector<dim>& force)
 	{
@@ -220,7 +273,7 @@ private:
 	}
 
 	/* A column is in contact when it presses on the wall, or when its node on the plane moves into the wall. */
-	static void decideContact(Band& band, Wall& wall, const Column& mass, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
+	static void decideContact(Band& band, const Wall& wall, const Column& mass, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
 	{
 		const int a = wall.axis;
 		for (Column_& c : band.columns) {
@@ -234,11 +287,10 @@ private:
 			const double gap = wall.side * ((momentum[a][c.plane] + dt * force[a][c.plane]) / mass[c.plane] - wall.velocity[a]);
 			c.folded         = pressing > 0 || gap < 0;
 			c.reaction       = c.folded ? pressing : 0;
-			wall.force[a] -= wall.side * c.reaction;
 		}
 	}
 	/* The tangential impulse that stops the sliding at the plane, or as much of it as Coulomb's law allows. */
-	void applyFriction(const Band& band, Wall& wall, const Column& mass, const NodeVector<dim>& momentum, NodeVector<dim>& force, double dt) const
+	void applyFriction(const Band& band, const Wall& wall, const Column& mass, const NodeVector<dim>& momentum, NodeVector<dim>& force, double dt) const
 	{
 		for (const Column_& c : band.columns) {
 			if (!c.folded || !(c.reaction > 0)) continue;
@@ -260,7 +312,6 @@ private:
 				if (d == wall.axis) continue;
 				force[d][c.plane] += w0 * scale * impulse[d] / dt;
 				if (two) force[d][c.mirror] += w1 * scale * impulse[d] / dt;
-				wall.force[d] -= (w0 + w1) * scale * impulse[d] / dt;
 			}
 		}
 	}

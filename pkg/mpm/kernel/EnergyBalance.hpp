@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "MpmSolver.hpp"
+
+namespace yade::mpm {
+
+/* Where the energy goes. With a_i = dv_i/dt the nodal accelerations, a step of FLIP changes the points' kinetic energy by
+
+  sum_p m_p dv_p . (v_p + dv_p/2) = sum_i m_i dv_i . u_i,   u_i = v_i + (Q dv)_i / 2,   Q = M^-1 N^T m N
+
+exactly, and m_i a_i is the sum of internal, external, damping and wall forces: each does the work f_i . u_i dt. Masses and
+forces are those of the nodes before folding, velocities those that unfolding has written; walls at rest then do no work.
+The internal forces' work is not used: it is set against V_p sigma_p : d eps_p at the points, and what is left over between
+the two is the error of the time integration, which the sum of all energies shows. */
+
+/* V sigma : d eps over a step at a point, by the trapezoidal rule, and where it goes. */
+template <class S, class Shape> struct MpmSolver<S, Shape>::StressWork {
+	const MpmSolver& solver;
+	const Law&       law;
+	std::size_t      point;
+	const double*    strain;
+	double           volume, work, hardening;
+
+	StressWork(const MpmSolver& s, const Law& l, std::size_t p, const double (&F)[dim * dim], const double* de, const double* sigma, const double* internal)
+	    : solver(s)
+	    , law(l)
+	    , point(p)
+	    , strain(de)
+	    , volume(s.volume(p, F))
+	    , work(.5 * volume * dot<S>(sigma, de))
+	    , hardening(hardeningEnergy<S>(l, internal))
+	{
+	}
+	void add(const double (&F)[dim * dim], const double* sigma, const double* internal, const Response& response, Energies& sum) const
+	{
+		const double after = solver.volume(point, F), middle = .5 * (volume + after);
+		const double heat = middle * response.dissipation, stored = middle * (hardeningEnergy<S>(law, internal) - hardening);
+		sum.dissipation += heat;
+		sum.hardening += stored;
+		sum.elastic += work + .5 * after * dot<S>(sigma, strain) - heat - stored;
+		solver.m_points.dissipation[point] += heat / solver.m_points.volume0[point];
+	}
+};
+
+/* Energies that the points hold when tracking begins. */
+template <class S, class Shape> void MpmSolver<S, Shape>::startEnergies()
+{
+	if (m_points.energies.started) return;
+	finish();
+	Energies& energies = m_points.energies;
+	energies           = {};
+	energies.started   = true;
+	for (std::size_t p = 0; p < m_points.count(); ++p) {
+		double     F[dim * dim], sigma[N];
+		Column     internal(m_points.internal.size() + 1);
+		const Law& law = m_laws[m_points.material[p]];
+		for (int k = 0; k < dim * dim; ++k)
+			F[k] = m_points.deformation[k][p];
+		for (int k = 0; k < N; ++k)
+			sigma[k] = m_points.stress[k][p];
+		for (std::size_t k = 0; k < m_points.internal.size(); ++k)
+			internal[k] = m_points.internal[k][p];
+		energies.elastic += volume(p, F) * elasticEnergy<S>(law, sigma, internal.data());
+		energies.hardening += volume(p, F) * hardeningEnergy<S>(law, internal.data());
+	}
+}
+
+/* Nodal masses and forces as the points have spread them, before the walls fold them, and the external part of the forces. */
+template <class S, class Shape> void MpmSolver<S, Shape>::keepSums()
+{
+	m_tracking.mass     = m_mass;
+	m_tracking.force    = m_force;
+	m_tracking.damping  = m_force;
+	m_tracking.external = m_force;
+	clear(m_tracking.damping), clear(m_tracking.external);
+	forEachTile([&](std::size_t t) {
+		const auto& tile = m_grid.tiles()[t];
+		Patch       f[dim] {};
+		for (std::size_t p = tile.begin; p < tile.end; ++p) {
+			double fp[dim], Vs[dim][dim];
+			pointForces(p, fp, Vs);
+			forEachNode(weights(tile, p), [&](int i, double Nip, const std::array<double, dim>&) {
+				for (int d = 0; d < dim; ++d)
+					f[d][i] += Nip * fp[d];
+			});
+		}
+		for (int d = 0; d < dim; ++d)
+			add(tile, f[d], m_tracking.external[d]);
+	});
+}
+
+/* Work of the step's forces, before the points take the new velocities. */
+template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
+{
+	const double dt = m_control.dt, flip = m_control.flip;
+	m_band.unfold(m_walls, m_tracking.damping, false);
+	NodeVector<dim> half = m_force;
+	clear(half);
+	std::vector<Energies> halfWork(m_grid.tiles().size());
+	forEachTile([&](std::size_t t) { // (m Q dv)_i / 2, and what prescribed motion and PIC take from the points
+		const auto& tile = m_grid.tiles()[t];
+		Patch       v[dim], dv[dim], sum[dim] {};
+		for (int d = 0; d < dim; ++d)
+			read(tile, m_momentum[d], v[d]), read(tile, m_force[d], dv[d]);
+		for (std::size_t p = tile.begin; p < tile.end; ++p) {
+			const Weights w = weights(tile, p);
+			const double  m = m_points.mass[p];
+			double        vp[dim] {}, dvp[dim] {};
+			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
+				for (int d = 0; d < dim; ++d)
+					vp[d] += Nip * v[d][i], dvp[d] += Nip * dv[d][i];
+			});
+			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
+				for (int d = 0; d < dim; ++d)
+					sum[d][i] += .5 * Nip * m * dvp[d];
+			});
+			for (int d = 0; d < dim; ++d) {
+				const double old = m_points.velocity[d][p], free = old + dvp[d];
+				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1)
+					halfWork[t].walls += .25 * m * (free * free - old * old);
+				else if (flip != 1) {
+					const double taken = flip * free + (1 - flip) * vp[d];
+					halfWork[t].damping += .25 * m * (free * free - taken * taken);
+				}
+			}
+		}
+		for (int d = 0; d < dim; ++d)
+			add(tile, sum[d], half[d]);
+	});
+	m_band.foldMomentumAtRest(half);
+	divideByMass(m_mass, half);
+	m_band.unfold(m_walls, half, false);
+
+	collectTiles();
+	Energies     work;
+	const double least = leastMass();
+	for (int d = 0; d < dim; ++d)
+		for (std::size_t i = 0; i < m_mass.size(); ++i) {
+			const double m = m_tracking.mass[i];
+			if (!(m > least)) continue;
+			const double u = .5 * (m_momentum[d][i] - m_force[d][i] + half[d][i]), braking = m * m_tracking.damping[d][i] * dt;
+			work.external -= m_tracking.external[d][i] * dt * u;
+			work.damping += braking * u;
+			work.walls -= (m * m_force[d][i] + braking - m_tracking.force[d][i] * dt) * u;
+		}
+	for (const Energies& tile : halfWork)
+		work.add(tile);
+	m_points.energies.add(m_points.upcoming);
+	m_points.energies.add(work); // half of the step's work until its start ...
+	m_points.upcoming = work;    // ... and half of it after
+}
+
+/* Work at the points that belongs to the next step's start. */
+template <class S, class Shape> void MpmSolver<S, Shape>::collectTiles()
+{
+	for (Energies& tile : m_tracking.tiles) {
+		m_points.upcoming.add(tile);
+		tile = {};
+	}
+}
+
+template <class S, class Shape> double MpmSolver<S, Shape>::kineticEnergy() const
+{
+	double kinetic = 0;
+	for (int d = 0; d < dim; ++d)
+		for (std::size_t p = 0; p < m_points.count(); ++p)
+			kinetic += .5 * m_points.mass[p] * m_points.velocity[d][p] * m_points.velocity[d][p];
+	return kinetic;
+}
+
+} // namespace yade::mpm
