@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmEngine.hpp"
 #include "BadInput.hpp"
-#include "BoucWenMat.hpp"
+#include "Materials.hpp"
 #include "MpmState.hpp"
 #include <core/BodyContainer.hpp>
 #include <core/EnergyTracker.hpp>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmPoints.hpp"
-#include "BoucWenMat.hpp"
+#include "Buffers.hpp"
+#include "Materials.hpp"
 #include "MpmState.hpp"
+#include "kernel/PointDriver.hpp"
 #include <Eigen/Eigenvalues>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -143,27 +145,6 @@ namespace {
 	/* Bodies outside the scene's own subdomain (0) are left alone by NewtonIntegrator and do not touch each other, while
 	contacts with other bodies and forces on them work as usual: what a material point wants. */
 	constexpr int subdomainOfPoints = 1;
-
-	/* A buffer of doubles that Python hands in. */
-	class DoubleBuffer {
-	public:
-		explicit DoubleBuffer(const py::object& object)
-		{
-			if (PyObject_GetBuffer(object.ptr(), &m_view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) py::throw_error_already_set();
-			if (std::string(m_view.format ? m_view.format : "") != "d") {
-				PyBuffer_Release(&m_view);
-				throw std::invalid_argument("expected a contiguous array of float64");
-			}
-		}
-		~DoubleBuffer() { PyBuffer_Release(&m_view); }
-		DoubleBuffer(const DoubleBuffer&)            = delete;
-		DoubleBuffer& operator=(const DoubleBuffer&) = delete;
-		const double* data() const { return static_cast<const double*>(m_view.buf); }
-		std::size_t   size() const { return std::size_t(m_view.len) / sizeof(double); }
-
-	private:
-		Py_buffer m_view;
-	};
 } // namespace
 
 py::object MpmPoints::append(py::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies)
@@ -206,6 +187,25 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 	return ids;
 }
 
+py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strain, bool freeXX, bool freeYY, bool freeZZ)
+{
+	const DoubleBuffer       path(strain);
+	const mpm::PointHistory  history = mpm::drivePoint(lawOf(*material), { path.data(), path.data() + path.size() }, { freeXX, freeYY, freeZZ });
+	py::dict                 result;
+	for (const auto& [name, values] : std::initializer_list<std::pair<const char*, const std::vector<double>*>> {
+	             { "stress", &history.stress },
+	             { "strain", &history.strain },
+	             { "backStress", &history.backStress },
+	             { "plasticStrain", &history.plasticStrain },
+	             { "dissipation", &history.dissipation } }) {
+		double*          out;
+		const py::object bytes = newBytes(values->size(), out);
+		std::copy(values->begin(), values->end(), out);
+		result[name] = bytes;
+	}
+	return result;
+}
+
 py::object MpmPoints::array(const std::string& name)
 {
 	const std::lock_guard<std::mutex> lock(mutex);
@@ -220,8 +220,8 @@ py::object MpmPoints::array(const std::string& name)
 	std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return rank(p) < rank(q); });
 
 	auto make = [&](std::size_t width, auto&& write) {
-		py::object bytes(py::handle<>(PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(n * width * sizeof(double)))));
-		double*    out = reinterpret_cast<double*>(PyByteArray_AsString(bytes.ptr()));
+		double*          out;
+		const py::object bytes = newBytes(n * width, out);
 		for (std::size_t k = 0; k < n; ++k)
 			write(order[k], out + k * width);
 		return py::object(py::make_tuple(bytes, py::str("float64"), width == 1 ? py::make_tuple(n) : width == 3 ? py::make_tuple(n, 3) : py::make_tuple(n, 3, 3)));
@@ -241,8 +241,8 @@ py::object MpmPoints::array(const std::string& name)
 		});
 	};
 	if (name == "id") {
-		py::object bytes(py::handle<>(PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(n * sizeof(std::int64_t)))));
-		auto*      out = reinterpret_cast<std::int64_t*>(PyByteArray_AsString(bytes.ptr()));
+		std::int64_t*    out;
+		const py::object bytes = newBytes(n, out);
 		for (std::size_t k = 0; k < n; ++k)
 			out[k] = points.id[order[k]];
 		return py::make_tuple(bytes, "int64", py::make_tuple(n));

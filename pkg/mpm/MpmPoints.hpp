@@ -67,6 +67,8 @@ public:
 	/* For py/mpm: adds points at positions (buffer of N x 3 doubles) and, if asked, a body for each; returns their ids. */
 	::boost::python::object append(
 	        ::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
+	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
+	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
 	/* For py/mpm: (bytes, shape) of one quantity, points in the order they were made in. */
 	::boost::python::object array(const std::string& name);
 
@@ -85,6 +87,7 @@ public:
 		,/*ctor*/,
 		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
+		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("__len__", &MpmPoints::count)
 	);
 	// clang-format on

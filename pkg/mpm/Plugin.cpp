@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "BoucWenMat.hpp"
+#include "Materials.hpp"
 #include "MpmEngine.hpp"
 #include "MpmPoints.hpp"
 #include "MpmState.hpp"
 #include "MpmWall.hpp"
 
 namespace yade {
-YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(MpmWall)(MpmEngine));
+YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmEngine));
 } // namespace yade

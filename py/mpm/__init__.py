@@ -15,6 +15,7 @@ import yade
 
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
+from .driver import PointHistory, drive
 from .points import array, criticalTimeStep, fill
 
-__all__ = ['array', 'criticalTimeStep', 'fill']
+__all__ = ['PointHistory', 'array', 'criticalTimeStep', 'drive', 'fill']

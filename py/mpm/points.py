@@ -102,15 +102,19 @@ def _points(create=False):
 	return points
 
 
-def _material(material):
-	if isinstance(material, wrapper.Material):
-		if any(material is m or material == m for m in O.materials): return material
-		raise KeyError('mpm.fill: material %r is not in O.materials; append it first' % material)
+def findMaterial(material, caller):
+	"""A material of O.materials by label or index; KeyError that names the caller and what there is."""
 	try:
 		return O.materials[material]
 	except (KeyError, IndexError, RuntimeError, TypeError):
-		raise KeyError('mpm.fill: material = %r: there is no such material; O.materials has %s'
-			% (material, [m.label or m.id for m in O.materials] or 'none; append one first')) from None
+		raise KeyError('%s: material = %r: there is no such material; O.materials has %s'
+			% (caller, material, [m.label or m.id for m in O.materials] or 'none; append one first')) from None
+
+
+def _material(material):
+	if not isinstance(material, wrapper.Material): return findMaterial(material, 'mpm.fill')
+	if any(material is m or material == m for m in O.materials): return material
+	raise KeyError('mpm.fill: material %r is not in O.materials; append it first' % material)
 
 
 def _positive(name, value):
