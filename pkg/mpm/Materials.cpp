@@ -35,11 +35,18 @@ namespace {
 			refuse(name, "loadingRule", "'" + m.loadingRule + "'", "choose 'normal', or 'paper' for comparison");
 		return law;
 	}
+
+	/* Class, and label or place in O.materials where it has one. */
+	std::string nameOf(const Material& material)
+	{
+		if (!material.label.empty()) return material.getClassName() + " '" + material.label + "'";
+		return material.getClassName() + (material.id < 0 ? "" : " " + std::to_string(material.id));
+	}
 } // namespace
 
 mpm::Law lawOf(const Material& material)
 {
-	const std::string name    = material.getClassName() + (material.label.empty() ? " " + std::to_string(material.id) : " '" + material.label + "'");
+	const std::string name    = nameOf(material);
 	const auto*       elastic = dynamic_cast<const ElastMat*>(&material);
 	if (!elastic)
 		throw std::runtime_error(

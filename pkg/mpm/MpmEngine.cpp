@@ -65,11 +65,11 @@ void MpmEngine::action()
 
 void MpmEngine::step()
 {
-	const mpm::StepControl control = prepare();
+	mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
 	const std::lock_guard<std::mutex> lock(m_points->mutex);
 	readBodies();
-	checkStep(control);
+	timeStepSafety > 0 ? adaptStep(control) : checkStep(control);
 	m_solver->step(control);
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
@@ -114,6 +114,7 @@ mpm::StepControl MpmEngine::prepare()
 	require(cellSize > 0 && std::isfinite(cellSize), self, "cellSize", cellSize, "give the edge of a grid cell > 0 [m], e.g. twice the spacing of mpm.fill");
 	require(flip >= 0 && flip <= 1, self, "flip", flip, "give a value in [0, 1]; 1 is pure FLIP");
 	require(damping >= 0 && damping < 1, self, "damping", damping, "give a value in [0, 1)");
+	require(timeStepSafety >= 0 && timeStepSafety <= 1, self, "timeStepSafety", timeStepSafety, "give a part of the stable step, e.g. 0.4, or 0 to set O.dt yourself");
 	require(gravity.allFinite(), self, "gravity", gravity.transpose(), "give a finite acceleration [m/s2]");
 	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
 	const mpm::Analysis analysisKind = analysisOf(analysis);
@@ -237,6 +238,9 @@ void MpmEngine::checkEngineOrder()
 		order.push_back(engine.get());
 	const std::size_t n = engines.size(), here = std::size_t(std::find(order.begin(), order.end(), this) - order.begin());
 	m_checkedEngines.clear(); // a bad order is complained of each time
+	for (const auto& engine : engines)
+		if (engine.get() != this && !engine->dead && engine->getClassName() == self)
+			throw std::runtime_error("O.engines has two MpmEngines, which would both move the same points; keep one, or set dead = True on the other");
 	for (std::size_t k = 0; k < n; ++k) {
 		const std::string name    = engines[k]->getClassName();
 		const bool        partial = dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
@@ -263,6 +267,14 @@ void MpmEngine::checkStep(const mpm::StepControl& control)
 		refuse("O", "dt", control.dt, "the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
 	m_checkedStep = control.dt;
 	m_checkedFor  = std::move(checkedFor);
+}
+
+/* O.dt for this step. The eigenvalue is worth many steps and changes slowly; velocities are followed at every step. */
+void MpmEngine::adaptStep(mpm::StepControl& control)
+{
+	constexpr long interval = 500;
+	if (!(acousticLimit > 0) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme);
+	scene->dt = control.dt = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
 }
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------

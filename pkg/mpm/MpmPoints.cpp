@@ -34,7 +34,24 @@ void MpmPoints::updateLaws()
 {
 	runtime.laws.resize(materials.size());
 	for (std::size_t m = 0; m < materials.size(); ++m)
-		runtime.laws[m] = lawOf(*materials[m]);
+		try {
+			runtime.laws[m] = lawOf(*materials[m]);
+		} catch (const std::runtime_error&) {
+			if (inUse(m)) throw;
+		}
+}
+
+/* Whether a point still has this material: bodies may have been given another one since the last step. */
+bool MpmPoints::inUse(std::size_t m) const
+{
+	const auto& bodies = *Omega::instance().getScene()->bodies;
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		if (points.material[p] != int(m)) continue;
+		const int id = points.id[p];
+		if (id < 0) return true;
+		if (std::size_t(id) < bodies.size() && bodies[unsigned(id)] && bodies[unsigned(id)]->material == materials[m]) return true;
+	}
+	return false;
 }
 
 mpm::Internals MpmPoints::internals(std::size_t p) const

@@ -98,6 +98,7 @@ private:
 
 	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
 	mpm::Internals internals(std::size_t p) const;
+	bool           inUse(std::size_t material) const;
 };
 REGISTER_SERIALIZABLE(MpmPoints);
 

@@ -40,11 +40,24 @@ def drive(material, strain, free=()):
 	:raises ValueError: for a path or names that are not of this form (naming entry and component)
 	:raises RuntimeError: if the material's parameters are not admissible
 	"""
-	path = numpy.array([[[m[i][j] for j in range(3)] for i in range(3)] for m in strain] if not isinstance(strain, numpy.ndarray) else strain, dtype=float)
-	if path.ndim != 3 or path.shape[1:] != (3, 3):
-		raise ValueError('mpm.drive: strain has shape %s; give N symmetric matrices, shape (N,3,3)' % (path.shape,))
-	free = (free,) if isinstance(free, str) else tuple(free)
-	for name in free:
-		if name not in _AXES: raise ValueError('mpm.drive: free = %r: choose among %s' % (free, _AXES))
+	path = _path(strain)
+	free = (free,) if isinstance(free, str) else free
+	if not isinstance(free, (tuple, list, set)) or any(name not in _AXES for name in free):
+		raise ValueError('mpm.drive: free = %r: choose among %s' % (free, _AXES))
 	if not isinstance(material, wrapper.Material): material = findMaterial(material, 'mpm.drive')
-	return PointHistory(wrapper.MpmPoints.drive(material, numpy.ascontiguousarray(path), *(name in free for name in _AXES)))
+	try:
+		return PointHistory(wrapper.MpmPoints.drive(material, path, *(name in free for name in _AXES)))
+	except ValueError as fault:
+		raise ValueError('mpm.drive: %s' % fault) from None
+
+
+def _path(strain):
+	"""The path as C++ wants it."""
+	try:
+		path = numpy.array(strain if isinstance(strain, numpy.ndarray) else [[list(row) for row in matrix] for matrix in strain], dtype=float, order='C')
+		shape = 'shape %s' % (path.shape,)
+	except (TypeError, ValueError):
+		path, shape = None, 'entries that are not 3x3 numbers'
+	if path is None or path.ndim != 3 or path.shape[1:] != (3, 3):
+		raise ValueError('mpm.drive: strain has %s: give N symmetric matrices, shape (N,3,3)' % shape)
+	return path
