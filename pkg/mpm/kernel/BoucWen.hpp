@@ -20,8 +20,8 @@ is elastic while f is small and plastic as f approaches sigma_y; there is no yie
 
 Options, each of which is off by default and then costs nothing (doc/law.md has their equations):
   isotropic hardening       sigma_y becomes radius(p)
-  strength degradation      H1 grows by nu = 1 + d_nu e, with e = (dissipated energy) E / sigma_y^2
-  stiffness degradation     D shrinks by 1 + d_eta e, as far as the second law allows
+  strength degradation      H1 is multiplied by nu = 1 + d_nu e, with e the integral of f lambda' over sigma_y^2 / E
+  stiffness degradation     D is divided by 1 + d_eta e, as far as the second law allows
   pinching                  slip on loading, about f = level sigma_y, that grows with e
   reloading                 below the last reversal, H1 shrinks by ((f - f_min)/(f_rev - f_min))^r */
 struct BoucWenParameters {

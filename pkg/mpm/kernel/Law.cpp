@@ -9,7 +9,7 @@ namespace {
 	struct Check {
 		std::string message;
 
-		void require(bool good, const char* attribute, double value, const char* remedy)
+		template <class Value> void require(bool good, const char* attribute, Value value, const char* remedy)
 		{
 			if (good || !message.empty()) return;
 			std::ostringstream text;
@@ -54,14 +54,14 @@ namespace {
 			"give a positive part of the yield stress");
 		c.require(law.reloading == 0 || law.reloading >= 1, "reloading", law.reloading,
 			"give 0 (off), an exponent of 1 or more, or infinity for elastic reloading");
-		c.require(!law.paper() || (!law.degrades() && !law.remembers() && !law.isotropic.active()), "loadingRule", 1,
-			"'paper' is there to compare with: it does not go with hardening of the yield stress, degradation, pinching or reloading");
+		c.require(!law.paper() || (!law.degrades() && !law.remembers() && !law.isotropic.active()), "loadingRule", "'paper'",
+			"choose 'normal': 'paper' is there to compare with and does not go with hardening of the yield stress, degradation, pinching or reloading");
 	}
 	void check(const DruckerPragerParameters& law, Check& c)
 	{
 		c.finiteNotNegative("cohesion", law.cohesion);
 		c.require(law.internalFriction >= 0 && law.internalFriction < 1.57, "internalFriction", law.internalFriction,
-			"give an angle from 0 to below pi/2 [rad]");
+			"give an angle from 0 to below 1.57 [rad]");
 		c.require(law.internalFriction > 0 || law.cohesion > 0, "cohesion", law.cohesion,
 			"give a positive cohesion [Pa] or internalFriction: without both there is no strength");
 		c.require(law.dilatancy >= 0 && law.dilatancy <= law.internalFriction, "dilatancy", law.dilatancy,

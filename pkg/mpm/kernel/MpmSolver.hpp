@@ -85,7 +85,8 @@ public:
 	Analysis    analysis() const override { return m_analysis; }
 	int         components() const override { return N; }
 
-	double criticalTimeStep(Scheme scheme) override;
+	double acousticTimeStep(Scheme scheme) override;
+	double crossingRate() const override;
 
 private:
 	using Grid                   = TileGrid<dim>;

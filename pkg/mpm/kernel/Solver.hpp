@@ -50,9 +50,13 @@ public:
 	virtual void finish()                         = 0;
 	/* The points' number, order, position or velocity have been changed from outside (after finish()). */
 	virtual void pointsChanged() = 0;
-	/* Largest stable step for the points as they stand [s]: from the greatest eigenvalue of the discrete operator with
-	elastic stiffness, and from the fastest point, which must not cross a cell in a step. */
-	virtual double criticalTimeStep(Scheme scheme) = 0;
+	/* Largest stable step for the points as they stand, at rest [s]: from the greatest eigenvalue of the discrete operator
+	with elastic stiffness. */
+	virtual double acousticTimeStep(Scheme scheme) = 0;
+	/* Cells that the fastest point crosses in a second. */
+	virtual double crossingRate() const = 0;
+	/* Largest stable step: the two as rates. */
+	double criticalTimeStep(Scheme scheme) { return 1 / (1 / acousticTimeStep(scheme) + crossingRate()); }
 	/* Bytes held by the grid. */
 	virtual std::size_t gridBytes() const = 0;
 

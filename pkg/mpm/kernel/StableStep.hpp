@@ -12,7 +12,7 @@ namespace yade::mpm {
 with lumped mass M, and K of the points' elastic stiffness. MUSL and USF are stable for dt < 2/omega with omega^2 the
 greatest eigenvalue of Q A; USL, which updates stress with velocities that have not been through Q, for
 dt^2 lambda (2 - q) < 4, which sqrt(2/lambda) of A alone always satisfies. */
-template <class S, class Shape> double MpmSolver<S, Shape>::criticalTimeStep(Scheme scheme)
+template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Scheme scheme)
 {
 	if (m_points.count() == 0) return std::numeric_limits<double>::infinity();
 	finish();
@@ -128,13 +128,17 @@ template <class S, class Shape> double MpmSolver<S, Shape>::criticalTimeStep(Sch
 				smoothing(y, scratch);
 				return massInner(x, scratch);
 			});
-	double limit = lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<double>::infinity();
+	return lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<double>::infinity();
+}
 
-	double crossing = 0;
+template <class S, class Shape> double MpmSolver<S, Shape>::crossingRate() const
+{
+	const auto cell     = makeGeometry<dim>(m_cellSize, m_walls).cell;
+	double     crossing = 0;
 	for (int d = 0; d < dim; ++d)
 		for (std::size_t p = 0; p < m_points.count(); ++p)
-			crossing = std::max(crossing, std::abs(m_points.velocity[d][p]) / m_geometry.cell[d]);
-	return 1 / (1 / limit + crossing);
+			crossing = std::max(crossing, std::abs(m_points.velocity[d][p]) / cell[d]);
+	return crossing;
 }
 
 } // namespace yade::mpm

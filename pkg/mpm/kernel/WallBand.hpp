@@ -272,7 +272,9 @@ private:
 		}
 	}
 
-	/* A column is in contact when it presses on the wall, or when its node on the plane moves into the wall. */
+	/* A column is in contact when its node on the plane moves into the wall, or when it presses on the wall while that node
+	leaves: the near points of a compressed body do, as it rebounds. An impulse that is nothing beside the node's momentum
+	away from the wall is rounding, and no contact. */
 	static void decideContact(Band& band, const Wall& wall, const Column& mass, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
 	{
 		const int a = wall.axis;
@@ -285,7 +287,7 @@ private:
 				if (m0 + m1 > 0) pressing -= wall.side * (f0 + f1 - (m1 - m0) * (f1 - f0) / (m0 + m1));
 			}
 			const double gap = wall.side * ((momentum[a][c.plane] + dt * force[a][c.plane]) / mass[c.plane] - wall.velocity[a]);
-			c.folded         = pressing > 0 || gap < 0;
+			c.folded         = gap < 0 || pressing * dt > 1e-3 * mass[c.plane] * gap;
 			c.reaction       = c.folded ? pressing : 0;
 		}
 	}
