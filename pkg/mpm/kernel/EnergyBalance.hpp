@@ -7,12 +7,13 @@ namespace yade::mpm {
 
 /* Where the energy goes. With a_i = dv_i/dt the nodal accelerations, a step of FLIP changes the points' kinetic energy by
 
-  sum_p m_p dv_p . (v_p + dv_p/2) = sum_i m_i dv_i . u_i,   u_i = v_i + (Q dv)_i / 2,   Q = M^-1 N^T m N
+  sum_p m_p dv_p . (v_p + dv_p/2) = sum_i m_i dv_i . u_i,   m_i u_i = m_i v_i + sum_p N_ip m_p dv_p / 2
 
-exactly, and m_i a_i is the sum of internal, external, damping and wall forces: each does the work f_i . u_i dt. Masses and
-forces are those of the nodes before folding, velocities those that unfolding has written; walls at rest then do no work.
-The internal forces' work is not used: it is set against V_p sigma_p : d eps_p at the points, and what is left over between
-the two is the error of the time integration, which the sum of all energies shows. */
+exactly, with dv_p the change that a point takes: of a prescribed component it takes none, and PIC adds to it; either is a
+force on the point, whose work is that of this change at the point's mean velocity. m_i a_i is the sum of internal, external, damping and wall forces: each does
+the work f_i . u_i dt. Masses and forces are those of the nodes before folding, velocities those that unfolding has written; walls at rest then do no work. The
+internal forces' work is not used: it is set against V_p sigma_p : d eps_p at the points, and what is left over between the two is the error of the time
+integration, which the sum of all energies shows. */
 
 /* V sigma : d eps over a step at a point, by the trapezoidal rule, and where it goes. */
 template <class S, class Shape> struct MpmSolver<S, Shape>::StressWork {
@@ -98,7 +99,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 	NodeVector<dim> half = m_force;
 	clear(half);
 	std::vector<Energies> halfWork(m_grid.tiles().size());
-	forEachTile([&](std::size_t t) { // (m Q dv)_i / 2, and what prescribed motion and PIC take from the points
+	forEachTile([&](std::size_t t) { // (m Q dv)_i / 2 of the changes that the points take, and what prescribed motion and PIC make of the others
 		const auto& tile = m_grid.tiles()[t];
 		Patch       v[dim], dv[dim], sum[dim] {};
 		for (int d = 0; d < dim; ++d)
@@ -111,19 +112,22 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 				for (int d = 0; d < dim; ++d)
 					vp[d] += Nip * v[d][i], dvp[d] += Nip * dv[d][i];
 			});
-			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
-				for (int d = 0; d < dim; ++d)
-					sum[d][i] += .5 * Nip * m * dvp[d];
-			});
+			double taken[dim]; // change of velocity
 			for (int d = 0; d < dim; ++d) {
-				const double old = m_points.velocity[d][p], free = old + dvp[d];
-				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1)
-					halfWork[t].walls += .25 * m * (free * free - old * old);
-				else if (flip != 1) {
-					const double taken = flip * free + (1 - flip) * vp[d];
-					halfWork[t].damping += .25 * m * (free * free - taken * taken);
+				const double old = m_points.velocity[d][p];
+				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1) {
+					taken[d] = 0;
+					halfWork[t].walls += .5 * m * dvp[d] * old;
+				} else {
+					const double pic = flip == 1 ? 0 : (1 - flip) * (vp[d] - old - dvp[d]);
+					taken[d]         = dvp[d] + pic;
+					halfWork[t].damping -= .5 * m * pic * (old + .5 * taken[d]);
 				}
 			}
+			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
+				for (int d = 0; d < dim; ++d)
+					sum[d][i] += .5 * Nip * m * taken[d];
+			});
 		}
 		for (int d = 0; d < dim; ++d)
 			add(tile, sum[d], half[d]);
