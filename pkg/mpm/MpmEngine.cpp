@@ -65,9 +65,9 @@ void MpmEngine::action()
 
 void MpmEngine::step()
 {
+	const auto       lock    = attach();
 	mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
-	const std::lock_guard<std::mutex> lock(m_points->mutex);
 	readBodies();
 	timeStepSafety > 0 ? adaptStep(control) : checkStep(control);
 	m_solver->step(control);
@@ -98,14 +98,20 @@ void MpmEngine::reportEnergies() const
 
 Real MpmEngine::criticalTimeStep()
 {
-	scene                           = &currentScene(); // the loop sets it before a step, and there may have been none
+	scene                          = Omega::instance().getScene().get(); // the loop sets it before a step, and there may have been none
+	const auto             lock    = attach();
 	const mpm::StepControl control = prepare();
-	const std::lock_guard<std::mutex> lock(m_points->mutex);
 	readBodies();
 	return m_solver->criticalTimeStep(control.scheme);
 }
 
-Scene& MpmEngine::currentScene() const { return *Omega::instance().getScene(); }
+/* Finds the scene's points and keeps Python's thread off them. */
+std::unique_lock<std::mutex> MpmEngine::attach()
+{
+	m_points = MpmPoints::of(*scene);
+	if (!m_points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
+	return std::unique_lock<std::mutex>(m_points->mutex);
+}
 
 // ---- what the scene says ------------------------------------------------------------------------------------------------
 
@@ -126,14 +132,12 @@ mpm::StepControl MpmEngine::prepare()
 	        thinning,
 	        "only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
 
-	m_points = MpmPoints::of(*scene, false);
-	if (!m_points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
-	const std::lock_guard<std::mutex> lock(m_points->mutex);
 	if (m_checkedEngines.size() != scene->engines.size()
 	    || !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(), [](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
 		checkEngineOrder();
 	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == thinning) m_points->finish();
 	m_points->large = largeStrain;
+	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
 	prepareWalls(dim);
 	prepareSolver();
@@ -189,15 +193,15 @@ void MpmEngine::prepareSolver()
 		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
 		m_solver       = runtime.solver.get();
 		m_solverFor    = key;
-		m_checkedGeneration = std::size_t(-1);
-		m_checkedStep  = 0;
+		m_checkedCount = 0;
 	}
-	if (points.generation != m_checkedGeneration && points.count() != m_checkedCount) {
+	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(mpm::dimension(analysisKind));
-		m_checkedCount = points.count();
-		m_checkedStep  = 0;
+		m_checkedCount   = points.count();
+		m_points->filled = false;
+		m_checkedFor.clear();
 	}
-	m_checkedGeneration = points.generation;
+	if (shape == "gimp") checkGimp();
 
 	int internals = 0;
 	for (const mpm::Law& law : runtime.laws)
@@ -224,9 +228,16 @@ void MpmEngine::checkPoints(int dim) const
 			        "position[2], velocity[2]",
 			        std::to_string(points.position[2][p]) + ", " + std::to_string(points.velocity[2][p]),
 			        "in a plane analysis points lie at z = 0 and stay there");
-		if (shape == "gimp")
-			require(points.size[p] <= cellSize * (1 + 1e-12), self, "cellSize", cellSize, "GIMP needs cells at least as large as the points' spacing");
 	}
+}
+
+/* Cells may be stretched between walls, and walls may move. */
+void MpmEngine::checkGimp() const
+{
+	const auto   cells = mpm::makeGeometry<3>(cellSize, m_points->runtime.walls).cell;
+	const double least = *std::min_element(cells.begin(), cells.end());
+	for (const double size : m_points->points.size)
+		require(size <= least * (1 + 1e-12), self, "cellSize", cellSize, "GIMP needs cells at least as large as the points' spacing; between these walls they are " + std::to_string(least) + " m");
 }
 
 /* Forces that are applied after this engine and cleared before it runs again would be lost without a word. */
@@ -237,6 +248,7 @@ void MpmEngine::checkEngineOrder()
 	for (const auto& engine : engines)
 		order.push_back(engine.get());
 	const std::size_t n = engines.size(), here = std::size_t(std::find(order.begin(), order.end(), this) - order.begin());
+	if (here == n) return; // asked for its time step outside O.engines
 	m_checkedEngines.clear(); // a bad order is complained of each time
 	for (const auto& engine : engines)
 		if (engine.get() != this && !engine->dead && engine->getClassName() == self)
@@ -244,9 +256,9 @@ void MpmEngine::checkEngineOrder()
 	for (std::size_t k = 0; k < n; ++k) {
 		const std::string name    = engines[k]->getClassName();
 		const bool        partial = dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
-		if (!partial && name != "InteractionLoop" && !Omega::instance().isInheritingFrom(name, "FieldApplier")) continue;
+		if (engines[k]->dead || (!partial && name != "InteractionLoop" && !Omega::instance().isInheritingFrom(name, "FieldApplier"))) continue;
 		for (std::size_t step = 1; step < n && (k + step) % n != here; ++step)
-			if (engines[(k + step) % n]->getClassName() == "ForceResetter")
+			if (engines[(k + step) % n]->getClassName() == "ForceResetter" && !engines[(k + step) % n]->dead)
 				throw std::runtime_error(
 				        "O.engines: the forces of " + name + " (place " + std::to_string(k) + ") are cleared by ForceResetter (place "
 				        + std::to_string((k + step) % n) + ") before MpmEngine (place " + std::to_string(here)
@@ -255,25 +267,34 @@ void MpmEngine::checkEngineOrder()
 	m_checkedEngines = std::move(order);
 }
 
+/* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
+bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
+{
+	std::vector<Real> now { Real(control.scheme), Real(m_points->count()) };
+	for (const mpm::Law& law : m_points->runtime.laws)
+		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
+	if (now == m_checkedFor) return false;
+	m_checkedFor = std::move(now);
+	return true;
+}
+
 void MpmEngine::checkStep(const mpm::StepControl& control)
 {
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
-	std::vector<Real> checkedFor { Real(control.scheme) };
-	for (const mpm::Law& law : m_points->runtime.laws)
-		checkedFor.insert(checkedFor.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
-	if (control.dt <= m_checkedStep && checkedFor == m_checkedFor) return;
+	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
+	m_checkedStep    = 0;
 	const Real limit = m_solver->criticalTimeStep(control.scheme);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt, "the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
 	m_checkedStep = control.dt;
-	m_checkedFor  = std::move(checkedFor);
 }
 
 /* O.dt for this step. The eigenvalue is worth many steps and changes slowly; velocities are followed at every step. */
 void MpmEngine::adaptStep(mpm::StepControl& control)
 {
 	constexpr long interval = 500;
-	if (!(acousticLimit > 0) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme);
+	const bool     loaded   = m_checkedFor.empty() && acousticLimit > 0; // a scene goes on with what it was saved with
+	if (((stiffnessChanged(control) && !loaded) || scene->iter % interval == 0)) acousticLimit = m_solver->acousticTimeStep(control.scheme);
 	scene->dt = control.dt = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
 }
 
@@ -300,17 +321,17 @@ void MpmEngine::readBodies()
 	const int    dim    = int(points.force.size());
 	scene->forces.sync();
 
-	std::vector<std::size_t> moved, kept;
+	std::vector<std::size_t> moved;
 	bool                     erased = false;
 	for (std::size_t p = 0; p < n; ++p) {
 		const int id = points.id[p];
 		if (id < 0) continue;
-		const Body* body  = std::size_t(id) < bodies.size() ? bodies[unsigned(id)].get() : nullptr;
-		const auto* state = body ? dynamic_cast<const MpmState*>(body->state.get()) : nullptr;
-		if (!state || state->pointId != id) {
+		const Body* body = m_points->bodyOf(p, bodies);
+		if (!body) {
 			erased = true;
 			continue;
 		}
+		const State* state = body->state.get();
 		const Vector3r& force = scene->forces.getForce(id);
 		if (!(force + state->pos + state->vel).allFinite()) refuseNonFinite(id, force, *state);
 		bool            here  = true;
@@ -328,14 +349,9 @@ void MpmEngine::readBodies()
 			points.fixed.resize(n, 0);
 			points.fixed[p] = fixed;
 		}
-		auto& material = m_points->materials[std::size_t(points.material[p])];
-		if (body->material != material) {
+		if (body->material != m_points->materials[std::size_t(points.material[p])]) {
 			m_points->finish();
-			auto& materials = m_points->materials;
-			auto  found     = std::find(materials.begin(), materials.end(), body->material);
-			if (found == materials.end()) found = materials.insert(materials.end(), body->material);
-			points.material[p] = int(found - materials.begin());
-			m_points->updateLaws();
+			m_points->changeMaterial(p, body->material);
 			prepareSolver();
 		}
 	}
@@ -345,17 +361,7 @@ void MpmEngine::readBodies()
 	for (const std::size_t p : moved)
 		for (int d = 0; d < 3; ++d)
 			points.position[std::size_t(d)][p] = bodies[unsigned(points.id[p])]->state->pos[d];
-	if (erased) {
-		for (std::size_t p = 0; p < n; ++p) {
-			const int id = points.id[p];
-			if (id < 0) kept.push_back(p);
-			else if (std::size_t(id) < bodies.size() && bodies[unsigned(id)]) {
-				const auto* state = dynamic_cast<const MpmState*>(bodies[unsigned(id)]->state.get());
-				if (state && state->pointId == id) kept.push_back(p);
-			}
-		}
-		points.select(kept);
-	}
+	if (erased) m_points->dropErased(bodies);
 	m_solver->pointsChanged();
 	checkPoints(mpm::dimension(analysisOf(analysis)));
 }

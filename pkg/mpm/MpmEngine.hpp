@@ -41,7 +41,7 @@ private:
 	std::tuple<std::string, std::string, Real>  m_solverFor; // analysis, shape, cellSize that the solver was made for
 	mpm::Solver*                                m_solver = nullptr;
 	std::size_t                                 m_bodies = 0; // points that have one
-	std::size_t                                 m_checkedGeneration = std::size_t(-1), m_checkedCount = 0;
+	std::size_t                                 m_checkedCount = 0;
 	Real                                        m_checkedStep  = 0; // steps up to this one are known to be stable ...
 	std::vector<Real>                           m_checkedFor;      // ... with this scheme and these laws
 	std::vector<Engine*>                        m_checkedEngines;
@@ -51,14 +51,16 @@ private:
 	mpm::StepControl prepare();
 	void             prepareWalls(int dim);
 	void             prepareSolver();
+	std::unique_lock<std::mutex> attach();
 	void             checkPoints(int dim) const;
+	void             checkGimp() const;
 	void             checkEngineOrder();
+	bool             stiffnessChanged(const mpm::StepControl& control);
 	void             checkStep(const mpm::StepControl& control);
 	void             adaptStep(mpm::StepControl& control);
 	void             readBodies();
 	void             writeBodies() const;
 	void             reportEnergies() const;
-	Scene&           currentScene() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
 

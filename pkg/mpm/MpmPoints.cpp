@@ -15,14 +15,16 @@ namespace yade {
 
 namespace py = ::boost::python;
 
-shared_ptr<MpmPoints> MpmPoints::of(Scene& scene, bool create)
+namespace {
+	const char* const incompatible
+	        = "': its law keeps other internal variables than the points carry (plastic strain, back stress); give points a law of the same kind and options, or make new points";
+}
+
+shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 {
 	for (const auto& item : scene.miscParams)
 		if (auto points = dynamic_pointer_cast<MpmPoints>(item)) return points;
-	if (!create) return {};
-	const shared_ptr<MpmPoints> points(new MpmPoints);
-	scene.miscParams.push_back(points);
-	return points;
+	return {};
 }
 
 void MpmPoints::finish()
@@ -35,10 +37,52 @@ void MpmPoints::updateLaws()
 	runtime.laws.resize(materials.size());
 	for (std::size_t m = 0; m < materials.size(); ++m)
 		try {
-			runtime.laws[m] = lawOf(*materials[m]);
+			const mpm::Law law = lawOf(*materials[m]);
+			if (!keepsInternals(runtime.laws[m], law) && inUse(m))
+				throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label + incompatible);
+			runtime.laws[m] = law;
 		} catch (const std::runtime_error&) {
 			if (inUse(m)) throw;
 		}
+}
+
+/* Whether what points have of internal variables means the same to another law; a law without any leaves none behind. */
+bool MpmPoints::keepsInternals(const mpm::Law& before, const mpm::Law& after) const
+{
+	const mpm::Internals a = mpm::Internals::of(before), b = mpm::Internals::of(after);
+	return points.internal.empty() || a.columns(1) == 0 || (a.tensors == b.tensors && a.scalars == b.scalars && before.kind == after.kind);
+}
+
+void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& material)
+{
+	auto found = std::find(materials.begin(), materials.end(), material);
+	if (found == materials.end()) found = materials.insert(materials.end(), material);
+	const std::size_t before = std::size_t(points.material[p]), after = std::size_t(found - materials.begin());
+	points.material[p] = int(after);
+	updateLaws();
+	if (mpm::Internals::of(runtime.laws[after]).columns(1) == 0)
+		for (mpm::Column& column : points.internal)
+			column[p] = 0; // an elastic point forgets
+	else if (!keepsInternals(runtime.laws[before], runtime.laws[after])) {
+		points.material[p] = int(before);
+		throw std::runtime_error("O.bodies[" + std::to_string(points.id[p]) + "].mat = " + material->getClassName() + " '" + material->label + incompatible);
+	}
+}
+
+const Body* MpmPoints::bodyOf(std::size_t p, const BodyContainer& bodies) const
+{
+	const int   id    = points.id[p];
+	const Body* body  = id >= 0 && std::size_t(id) < bodies.size() ? bodies[unsigned(id)].get() : nullptr;
+	const auto* state = body ? dynamic_cast<const MpmState*>(body->state.get()) : nullptr;
+	return state && state->pointId == id ? body : nullptr;
+}
+
+void MpmPoints::dropErased(const BodyContainer& bodies)
+{
+	std::vector<std::size_t> kept;
+	for (std::size_t p = 0; p < points.count(); ++p)
+		if (points.id[p] < 0 || bodyOf(p, bodies)) kept.push_back(p);
+	if (kept.size() < points.count()) points.select(kept);
 }
 
 /* Whether a point still has this material: bodies may have been given another one since the last step. */
@@ -47,9 +91,8 @@ bool MpmPoints::inUse(std::size_t m) const
 	const auto& bodies = *Omega::instance().getScene()->bodies;
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		if (points.material[p] != int(m)) continue;
-		const int id = points.id[p];
-		if (id < 0) return true;
-		if (std::size_t(id) < bodies.size() && bodies[unsigned(id)] && bodies[unsigned(id)]->material == materials[m]) return true;
+		const Body* body = bodyOf(p, bodies);
+		if (points.id[p] < 0 || (body && body->material == materials[m])) return true;
 	}
 	return false;
 }
@@ -176,6 +219,7 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 	const Real volume = thickness > 0 ? spacing * spacing * thickness : spacing * spacing * spacing, mass = material->density * volume;
 
 	BodyContainer& container = *Omega::instance().getScene()->bodies;
+	dropErased(container); // ids of erased bodies are given again
 	py::list       ids;
 	for (std::size_t k = 0; k + 2 < buffer.size(); k += 3) {
 		const Vector3r x(buffer.data()[k], buffer.data()[k + 1], buffer.data()[k + 2]);
@@ -201,6 +245,15 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 		ids.append(id);
 	}
 	++points.generation;
+	filled = true;
+	if (!points.stress.empty()) // columns that the analysis in hand needs, for whoever looks at the points before the next step
+		points.prepare(
+		        int(points.advance.size()),
+		        int(points.stress.size()),
+		        int(points.internal.size()),
+		        !points.thicknessStretch.empty(),
+		        !points.force.empty(),
+		        !points.dissipation.empty());
 	return ids;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "kernel/Solver.hpp"
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
 #include <core/Material.hpp>
 #include <core/Scene.hpp>
 #include <lib/serialization/Serializable.hpp>
@@ -44,14 +46,20 @@ public:
 		std::unique_ptr<mpm::Solver> solver;
 	};
 
-	/* Those of the scene; where there are none, an empty pointer, or new ones. */
-	static shared_ptr<MpmPoints> of(Scene& scene, bool create);
+	/* Those of the scene, or an empty pointer. */
+	static shared_ptr<MpmPoints> of(const Scene& scene);
 
 	std::size_t count() const { return points.count(); }
 	/* Carries out the pending stress update. */
 	void finish();
 	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
 	void updateLaws();
+	/* Gives a point another material; throws where its internal variables would not fit. */
+	void changeMaterial(std::size_t p, const shared_ptr<Material>& material);
+	/* The body that stands for a point, or null where it has none (any more). */
+	const Body* bodyOf(std::size_t p, const BodyContainer& bodies) const;
+	/* Drops the points whose bodies have been erased. */
+	void dropErased(const BodyContainer& bodies);
 	/* Index of the point with this id in the arrays as they stand; throws where there is none. */
 	std::size_t indexOf(int id);
 
@@ -69,13 +77,14 @@ public:
 	        ::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
 	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
 	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
-	/* For py/mpm: (bytes, shape) of one quantity, points in the order they were made in. */
+	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
 	::boost::python::object array(const std::string& name);
 
 	void preSave(MpmPoints&);
 	void postLoad(MpmPoints&);
 
 	Runtime    runtime;
+	bool       filled = true; // since the engine last looked at every point
 	std::mutex mutex; // between the simulation's thread and Python's
 
 	// clang-format off
@@ -99,6 +108,7 @@ private:
 	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
 	mpm::Internals internals(std::size_t p) const;
 	bool           inUse(std::size_t material) const;
+	bool           keepsInternals(const mpm::Law& before, const mpm::Law& after) const;
 };
 REGISTER_SERIALIZABLE(MpmPoints);
 

@@ -69,7 +69,7 @@ mpmBuild() {
 	for target in "$@"; do targets+=(--target "$target"); done
 	mkdir -p "$folder"
 	if [ ! -f "$folder/build.ninja" ]; then
-		if ! (cd "$mpmRoot" && cmake --preset "$preset" -B "$folder" -G Ninja) >"$log" 2>&1; then
+		if ! (cd "$mpmRoot" && cmake --preset "$preset" -B "$folder") >"$log" 2>&1; then
 			tail -n 30 "$log" >&2
 			mpmFail "CMake failed; all it said is in $log"
 			return 1

@@ -323,4 +323,62 @@ O.reset()
 equal('no points after O.reset', len(mpm.array('id')), 0)
 check('a state that outlives its scene can be looked at', orphan.stress[0, 0] == orphan.stress[0, 0])
 
+# ---- changes in mid-run that points could misread ------------------------------------------------------------------
+
+ids, grid = block(velocity=(1, 0, 0))
+O.run(3, True)
+new = mpm.fill(((3, 0), (4, 1)), spacing=.25, thickness=.1, material='elastic')
+k = numpy.isin(mpm.array('id'), new)
+same('a fill in mid-run: F of the new points', mpm.array('F')[k], numpy.tile(numpy.eye(3), (len(new), 1, 1)))
+same('... their stress', mpm.array('stress')[k], numpy.zeros((len(new), 3, 3)))
+near('... their volume', mpm.array('volume')[k], [.25*.25*.1]*len(new), 1e-15)
+near('... through the body', O.bodies[new[0]].state.volume, .25*.25*.1, 1e-15)
+
+mass = mpm.array('mass')[:len(ids)].sum()
+O.bodies.clear()
+again = mpm.fill(((0, 0), (1, 1)), spacing=.25, thickness=.1, material='elastic')
+near('bodies cleared and filled again: no point is there twice', mpm.array('mass').sum(), mass, 1e-12*mass)
+O.run(1, True)
+equal('... nor after a step', (len(mpm.array('id')), len(set(mpm.array('id')))), (len(again), len(again)))
+
+steel = BoucWenMat(label='steel', young=1e6, poisson=.3, density=1000, yieldStress=1e3, n=2)
+ids, grid = block(material=steel, velocity=(0, -5, 0), walls=[MpmWall(normal=(0, 1, 0), kind='fixed')])
+O.run(100, True)
+p = mpm.array('plasticStrain')
+check('the block has yielded', p.max() > 1e-3)
+steel.reloading = 2
+raises('an option that keeps other internal variables', RuntimeError, 'internal variables', lambda: O.run(1, True))
+steel.reloading = 0
+O.materials.append(DruckerPragerMat(label='soil', young=1e6, poisson=.3, density=1000, cohesion=1e3))
+for i in ids: O.bodies[i].mat = O.materials['soil']
+raises('a law that keeps other internal variables', RuntimeError, 'O.bodies[', lambda: O.run(1, True))
+for i in ids: O.bodies[i].mat = steel
+O.run(1, True)
+check('and the plastic strain is still there', (mpm.array('plasticStrain') >= p).all())
+
+ids, grid = block(spacing=.25, cellSize=.2)
+O.run(1, True)
+grid.shape = 'gimp'
+raises('a shape that does not fit, in mid-run', RuntimeError, 'MpmEngine.cellSize', lambda: O.run(1, True))
+ids, grid = block(spacing=.25, cellSize=.25, shape='gimp', courant=None, walls=[MpmWall(normal=(1, 0, 0), kind='slip'), MpmWall(origin=(1.4, 0, 0), normal=(-1, 0, 0), kind='slip')])
+raises('GIMP in cells that two walls have shrunk', RuntimeError, 'GIMP needs cells', lambda: mpm.criticalTimeStep())
+
+# ---- contact with a facet through YADE's own engines: the collider hears of the points' motion ----------------------
+
+O.reset()
+O.materials.append(FrictMat(young=1e6, poisson=.3, density=1000, frictionAngle=0, label='soft'))
+O.bodies.append(facet([(-2, -.5, -2), (4, -.5, -2), (1, -.5, 4)], material='soft'))
+ids = mpm.fill(((0, 0), (1, 1)), spacing=.125, thickness=.125, material='soft', velocity=(0, -2, 0))
+grid = MpmEngine(cellSize=.25)
+O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=.02),
+	InteractionLoop([Ig2_Facet_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+	NewtonIntegrator(damping=0), grid]
+O.dt = .2*mpm.criticalTimeStep()
+O.stopAtTime = .6
+O.run()
+O.wait()
+v = momentum()[1]/mpm.array('mass').sum()
+check('a block bounces off a facet', 1 < v < 2.001 and mpm.array('position')[:, 1].min() > -.5, (v, mpm.array('position')[:, 1].min()))
+equal('points do not touch each other', [i for i in O.interactions if i.isReal and i.id1 in ids and i.id2 in ids], [])
+
 finish()

@@ -41,11 +41,12 @@ namespace detail {
 		void large(const double* G)
 		{
 			const double a = 1 + .5 * G[0], b = .5 * G[1], c = .5 * G[2], d = 1 + .5 * G[3], det = a * d - b * c;
-			const double Axx = (G[0] * d - G[1] * c) / det, Axy = (G[1] * a - G[0] * b) / det;
-			const double Ayx = (G[2] * d - G[3] * c) / det, Ayy = (G[3] * a - G[2] * b) / det;
+			const double over = 1 / det;
+			const double Axx = (G[0] * d - G[1] * c) * over, Axy = (G[1] * a - G[0] * b) * over;
+			const double Ayx = (G[2] * d - G[3] * c) * over, Ayy = (G[3] * a - G[2] * b) * over;
 			xx = Axx, yy = Ayy, gamma = Axy + Ayx;
-			const double h = .25 * (Ayx - Axy); // tangent of half the rotation
-			cosine = (1 - h * h) / (1 + h * h), sine = 2 * h / (1 + h * h);
+			const double h = .25 * (Ayx - Axy), secant2 = 1 / (1 + h * h); // tangent of half the rotation
+			cosine = (1 - h * h) * secant2, sine = 2 * h * secant2;
 		}
 	};
 } // namespace detail

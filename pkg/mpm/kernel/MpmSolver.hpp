@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "InstructionSet.hpp"
 #include "Kinematics.hpp"
 #include "Lanczos.hpp"
+#include "Lanes.hpp"
+#include "LawLanes.hpp"
 #include "ShapeFunction.hpp"
 #include "Solver.hpp"
 #include "WallBand.hpp"
@@ -21,6 +24,7 @@ public:
 	    , m_points(points)
 	    , m_laws(laws)
 	    , m_walls(walls)
+	    , m_instructions(instructionSet())
 	{
 	}
 
@@ -36,17 +40,17 @@ public:
 
 		clear(m_mass), clear(m_momentum), clear(m_force);
 		if (control.scheme == Scheme::usf) {
-			forEachTile([&](std::size_t t) { pointsToGrid<false, false>(t); });
+			forEachTile([&](std::size_t t) { pointsToGrid<false>(t); });
 			startVelocities();
 			m_stressControl = control;
 			forEachTile([&](std::size_t t) { stressThenForce(t); });
 			checkStress();
 		} else if (m_pending) {
-			forEachTile([&](std::size_t t) { pointsToGrid<true, true>(t); });
+			forEachTile([&](std::size_t t) { updateTileStress(t), pointsToGrid<true>(t); });
 			m_pending = false;
 			checkStress();
 		} else {
-			forEachTile([&](std::size_t t) { pointsToGrid<false, true>(t); });
+			forEachTile([&](std::size_t t) { pointsToGrid<true>(t); });
 		}
 		if (energy) keepSums();
 		updateNodes();
@@ -89,17 +93,21 @@ public:
 	double crossingRate() const override;
 
 private:
-	using Grid                   = TileGrid<dim>;
-	static constexpr int support = Shape::support;
-	static constexpr int extent  = Grid::width + support - 1; // nodes along an axis that a tile's points touch
-	static constexpr int rows    = ipow(extent, dim - 1);
-	static constexpr int local   = rows * extent;
-	using Patch                  = double[local]; // one nodal quantity around a tile
+	static constexpr double infinity = std::numeric_limits<double>::infinity();
+	using Grid                       = TileGrid<dim>;
+	static constexpr int support     = Shape::support;
+	static constexpr int extent      = Grid::width + support - 1; // nodes along an axis that a tile's points touch
+	static constexpr int rows        = ipow(extent, dim - 1);
+	static constexpr int local       = rows * extent;
+	static constexpr int row         = Shape::row;
+	using Tile                       = typename Grid::Tile;
+	using Patch                      = double[local + row - support]; // one nodal quantity around a tile
 
 	struct Weights {
-		int    first;                              // node of the patch
-		double N_[dim][support], dN[dim][support]; // dN in 1/m
+		alignas(8 * row) double N_[dim][row], dN[dim][row]; // dN in 1/m; zero beyond the support
+		int first;                                          // node of the patch
 	};
+	using WeightLanes = Weights[lanes];
 	struct TileReport {                    // what a pass has to say of a tile
 		bool           left   = false; // a point is no longer the tile's, or worse
 		std::ptrdiff_t failed = -1;    // a point whose volume is not positive
@@ -110,6 +118,7 @@ private:
 	Points&                 m_points;
 	const std::vector<Law>& m_laws;
 	std::vector<Wall>&      m_walls;
+	const InstructionSet    m_instructions;
 	StepControl             m_control, m_stressControl; // of the current step, and of the one whose stress update is pending
 	Geometry<dim>           m_geometry;
 	std::vector<Wall::Kind> m_kinds; // of the walls, as the bands have been built for
@@ -118,6 +127,8 @@ private:
 	Column                  m_mass;
 	NodeVector<dim>         m_momentum, m_force, m_velocity; // momentum becomes velocity, force becomes dt * acceleration
 	std::vector<TileReport> m_reports;
+	double                  m_wallHalfSize = 0;     // of the point whose shape functions the bands have been built for
+	bool                    m_laid         = false; // blocks, node arrays and bands are those of the geometry
 	bool                    m_sorted = false, m_pending = false;
 
 	struct StressWork;
@@ -140,33 +151,39 @@ private:
 	/* Lays the grid through walls and points; what of it still fits is kept. */
 	void layGrid()
 	{
-		const Geometry<dim> geometry = makeGeometry<dim>(m_cellSize, m_walls);
+		const Geometry<dim>     geometry = makeGeometry<dim>(m_cellSize, m_walls);
 		std::vector<Wall::Kind> kinds;
 		for (const Wall& wall : m_walls)
 			kinds.push_back(wall.kind);
 		if (m_sorted && geometry == m_geometry && kinds == m_kinds) return;
 		finish(); // the pending update belongs to the old grid
+		m_laid     = m_laid && geometry == m_geometry && kinds == m_kinds;
 		m_geometry = geometry, m_kinds = kinds;
 
 		Points&                           P = m_points;
 		std::array<std::vector<int>, dim> bases;
+		for (std::size_t p = 0; p < P.count(); ++p)
+			requireOnGrid(p);
 		for (int d = 0; d < dim; ++d) {
 			bases[d].resize(P.count());
-			for (std::size_t p = 0; p < P.count(); ++p) {
-				requireOnGrid(p);
-				bases[d][p] = int(std::floor(m_geometry.xi(d, P.position[d][p]) - Shape::shift(halfSize(d, p))));
-			}
+			for (std::size_t p = 0; p < P.count(); ++p)
+				bases[d][p] = floorToInt(m_geometry.xi(d, P.position[d][p]) - Shape::shift(halfSize(d, p)));
 		}
-		m_grid.sort(P, bases);
-		m_mass.assign(m_grid.nodeCount(), 0);
-		for (auto* field : { &m_momentum, &m_force, &m_velocity })
-			for (Column& c : *field)
-				c.assign(m_grid.nodeCount(), 0);
+		if (m_grid.sort(P, bases)) m_laid = false;
 		m_reports.assign(m_grid.tiles().size(), {});
-		double       N0[support], dN0[support];
-		const double r = P.count() ? halfSize(0, 0) : .5, base = std::floor(-Shape::shift(r));
-		Shape::evaluate(0, base, r, N0, dN0);
-		m_band.build(m_grid, m_geometry, m_walls, N0[int(-base)], support > 2 ? N0[int(-base) - 1] : 0);
+		const double r = P.count() ? halfSize(0, 0) : .5; // of the shape functions at the walls
+		if (!m_laid || r != m_wallHalfSize) {
+			m_mass.assign(m_grid.nodeCount(), 0);
+			for (auto* field : { &m_momentum, &m_force, &m_velocity })
+				for (Column& c : *field)
+					c.assign(m_grid.nodeCount(), 0);
+			double       N0[support], dN0[support];
+			const double base = std::floor(-Shape::shift(r));
+			Shape::evaluate(0, base, r, N0, dN0);
+			m_band.build(m_grid, m_geometry, m_walls, N0[int(-base)], support > 2 ? N0[int(-base) - 1] : 0);
+			m_wallHalfSize = r;
+			m_laid         = true;
+		}
 		m_sorted = true;
 	}
 
@@ -202,18 +219,72 @@ private:
 
 	double halfSize(int axis, std::size_t p) const { return Shape::usesSize ? .5 * m_points.size[p] / m_geometry.cell[axis] : 0; }
 
-	Weights weights(const typename Grid::Tile& tile, std::size_t p) const
+	/* Weights of a point, and those of a block of them at x. */
+	Weights weights(const Tile& tile, std::size_t p) const
 	{
-		Weights w;
-		w.first = 0;
+		Lanes x[dim];
+		for (int d = 0; d < dim; ++d)
+			load(m_points.position[d], { p, 1 }, x[d]);
+		WeightLanes w;
+		weights(tile, { p, 1 }, x, w);
+		return w[0];
+	}
+	void weights(const Tile& tile, Block block, const Lanes (&x)[dim], WeightLanes& w) const
+	{
+		Lanes s[dim], r[dim] {};
+		int   first[lanes] {};
 		for (int d = dim - 1; d >= 0; --d) {
-			const double xi = m_geometry.xi(d, m_points.position[d][p]), r = halfSize(d, p), base = std::floor(xi - Shape::shift(r));
-			Shape::evaluate(xi, base, r, w.N_[d], w.dN[d]);
-			for (int k = 0; k < support; ++k)
-				w.dN[d][k] /= m_geometry.cell[d];
-			w.first = w.first * extent + (int(base) - tile.index[d] * Grid::width);
+			const double origin = m_geometry.origin[d], cell = m_geometry.cell[d];
+			const int    corner = tile.index[d] * Grid::width;
+			if constexpr (Shape::usesSize) {
+				load(m_points.size, block, r[d]);
+				forLanes([&](int l) { r[d][l] = .5 * r[d][l] / cell; });
+			}
+#pragma omp simd
+			for (int l = 0; l < lanes; ++l) {
+				const double xi   = (x[d][l] - origin) / cell;
+				const int    base = clamp(floorToInt(xi - Shape::shift(r[d][l])), corner, corner + Grid::width - 1);
+				s[d][l]           = xi - base;
+				first[l]          = first[l] * extent + (base - corner);
+			}
 		}
-		return w;
+		double perMetre[dim];
+		for (int d = 0; d < dim; ++d)
+			perMetre[d] = 1 / m_geometry.cell[d];
+		for (int l = 0; l < block.count; ++l) {
+			w[l].first = first[l];
+			for (int d = 0; d < dim; ++d) {
+				shapeRow(s[d][l], r[d][l], w[l].N_[d], w[l].dN[d]);
+#pragma omp simd
+				for (int k = 0; k < row; ++k)
+					w[l].dN[d][k] *= perMetre[d];
+			}
+		}
+	}
+	static void shapeRow(double s, double r, double* N, double* dN)
+	{
+		if constexpr (Shape::usesSize || row == support)
+			Shape::evaluate(s, 0, r, N, dN);
+		else
+			Shape::template evaluate<row>(s, 0, r, N, dN);
+		for (int k = support; Shape::usesSize && k < row; ++k)
+			N[k] = dN[k] = 0;
+	}
+	/* visit(offset from the first node, c) for every row of nodes along x in a point's support: N_ip = c[0] N_[0][i], and
+	grad N_ip = (c[0] dN[0][i], c[1] N_[0][i], c[2] N_[0][i]). */
+	template <class Visit> static void forEachRow(const Weights& w, Visit&& visit)
+	{
+		if constexpr (dim == 1) {
+			visit(0, std::array<double, 1> { 1. });
+		} else if constexpr (dim == 2) {
+			for (int j = 0; j < support; ++j)
+				visit(j * extent, std::array<double, 2> { w.N_[1][j], w.dN[1][j] });
+		} else {
+			for (int k = 0; k < support; ++k)
+				for (int j = 0; j < support; ++j)
+					visit((k * extent + j) * extent,
+						std::array<double, 3> { w.N_[1][j] * w.N_[2][k], w.dN[1][j] * w.N_[2][k], w.N_[1][j] * w.dN[2][k] });
+		}
 	}
 	/* visit(node of the patch, N_ip, grad N_ip) for every node of a point's support. */
 	template <class Visit> static void forEachNode(const Weights& w, Visit&& visit)
@@ -252,6 +323,8 @@ private:
 	}
 	static void read(const typename Grid::Tile& tile, const Column& field, Patch& patch)
 	{
+		for (int k = support; k < row; ++k)
+			patch[local + k - support] = 0;
 		forEachRun(tile, [&](int at, std::size_t node, int length) { std::memcpy(patch + at, &field[node], length * sizeof(double)); });
 	}
 	static void add(const typename Grid::Tile& tile, const Patch& patch, Column& field)
@@ -267,47 +340,118 @@ private:
 		for (int c = 0; c < Grid::corners; ++c) {
 			const std::vector<int>& tiles = m_grid.colour(c);
 			const int               count = int(tiles.size());
-#pragma omp parallel for schedule(dynamic) num_threads(m_control.threads) if (m_control.threads > 1 && count > 1)
+#pragma omp parallel for schedule(dynamic) num_threads(m_control.threads) if (m_control.threads > 1 && count > 1 && m_points.count() > 2000)
 			for (int k = 0; k < count; ++k)
 				work(std::size_t(tiles[k]));
 		}
 	}
-	static void clear(Column& field) { std::fill(field.begin(), field.end(), 0.); }
-	static void clear(NodeVector<dim>& field)
+	/* work(i) for every node. */
+	template <class Work> void forEachGridNode(Work&& work) const
+	{
+		const std::size_t count = m_mass.size();
+#pragma omp parallel for schedule(static) num_threads(m_control.threads) if (m_control.threads > 1 && count > 10000)
+		for (std::size_t i = 0; i < count; ++i)
+			work(i);
+	}
+	void clear(Column& field) const
+	{
+		forEachGridNode([&](std::size_t i) { field[i] = 0; });
+	}
+	void clear(NodeVector<dim>& field) const
 	{
 		for (Column& c : field)
 			clear(c);
 	}
 
-	// ---- steps of the method --------------------------------------------------------------------------------------
+	// ---- steps of the method: each for a tile, compiled by run() once for each instruction set, so that a pass gives the
+	// same bits wherever it is called from
 
-	/* Step 1: m_i = sum N_ip m_p, (m v)_i = sum N_ip m_p v_p, f_i = sum N_ip (f_p + m_p g) - V_p sigma_p grad N_ip   (eqs. 12, 13)
-	With stress, after step 5 of the step before. */
-	template <bool stress, bool force> void pointsToGrid(std::size_t t)
+	/* Step 1: m_i = sum N_ip m_p, (m v)_i = sum N_ip m_p v_p, f_i = sum N_ip (f_p + m_p g) - V_p sigma_p grad N_ip   (eqs. 12, 13) */
+	template <bool force> void pointsToGrid(std::size_t t)
 	{
-		const auto& tile = m_grid.tiles()[t];
-		if (stress) updateTileStress(t);
-		Patch m {}, mv[dim] {}, f[dim] {};
-		for (std::size_t p = tile.begin; p < tile.end; ++p) {
-			const Weights w  = weights(tile, p);
-			const double  mp = m_points.mass[p];
-			double        mvp[dim], fp[dim], Vs[dim][dim];
-			for (int d = 0; d < dim; ++d)
-				mvp[d] = mp * m_points.velocity[d][p];
-			if (force) pointForces(p, fp, Vs);
-			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>& grad) {
-				m[i] += Nip * mp;
-				for (int d = 0; d < dim; ++d) {
-					mv[d][i] += Nip * mvp[d];
-					if (force) f[d][i] += nodalForce(d, Nip, grad, fp, Vs);
-				}
-			});
-		}
+		run(m_instructions, [this, t] { spreadTile<force>(t); });
+	}
+	template <bool force> void spreadTile(std::size_t t)
+	{
+		const Tile& tile = m_grid.tiles()[t];
+		Patch       m {}, mv[dim] {}, f[dim] {};
+		forEachBlock(tile.begin, tile.end, [&](Block block) {
+			Lanes       x[dim], mp, mvp[dim], fp[dim], Vs[dim][dim];
+			WeightLanes w;
+			loadMotion(block, x, mp, mvp);
+			weights(tile, block, x, w);
+			if (force) pointForces(block, mp, fp, Vs);
+			for (int l = 0; l < block.count; ++l)
+				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
+					const int     at = w[l].first + offset;
+					const double *N = w[l].N_[0], *dN = w[l].dN[0], c0m = c[0] * mp[l];
+					double        c0mv[dim], fN[dim], fdN[dim];
+					for (int d = 0; d < dim; ++d) {
+						c0mv[d] = c[0] * mvp[d][l];
+						if (!force) continue;
+						fN[d] = c[0] * fp[d][l], fdN[d] = -c[0] * Vs[d][0][l];
+						for (int e = 1; e < dim; ++e)
+							fN[d] -= c[e] * Vs[d][e][l];
+					}
+#pragma omp simd
+					for (int i = 0; i < row; ++i) {
+						m[at + i] += c0m * N[i];
+						for (int d = 0; d < dim; ++d) {
+							mv[d][at + i] += c0mv[d] * N[i];
+							if (force) f[d][at + i] += fN[d] * N[i] + fdN[d] * dN[i];
+						}
+					}
+				});
+		});
 		add(tile, m, m_mass);
 		for (int d = 0; d < dim; ++d) {
 			add(tile, mv[d], m_momentum[d]);
 			if (force) add(tile, f[d], m_force[d]);
 		}
+	}
+	/* Position, mass and momentum. */
+	void loadMotion(Block block, Lanes (&x)[dim], Lanes& mp, Lanes (&mvp)[dim]) const
+	{
+		load(m_points.mass, block, mp);
+		for (int d = 0; d < dim; ++d) {
+			load(m_points.position[d], block, x[d]);
+			load(m_points.velocity[d], block, mvp[d]);
+			forLanes([&](int l) { mvp[d][l] *= mp[l]; });
+		}
+	}
+	void pointForces(Block block, const Lanes& mp, Lanes (&fp)[dim], Lanes (&Vs)[dim][dim]) const
+	{
+		Lanes V, F[dim * dim], stretch;
+		load(m_points.volume0, block, V);
+		if (m_control.largeStrain) {
+			for (int k = 0; k < dim * dim; ++k)
+				load(m_points.deformation[k], block, F[k]);
+			forLanes([&](int l) { V[l] *= determinantOf(F, l); });
+			if (!m_points.thicknessStretch.empty()) {
+				load(m_points.thicknessStretch, block, stretch);
+				forLanes([&](int l) { V[l] *= stretch[l]; });
+			}
+		}
+		for (int d = 0; d < dim; ++d) {
+			const double g = m_control.gravity[d];
+			if (m_points.force.empty())
+				forLanes([&](int l) { fp[d][l] = mp[l] * g; });
+			else {
+				load(m_points.force[d], block, fp[d]);
+				forLanes([&](int l) { fp[d][l] += mp[l] * g; });
+			}
+			for (int e = 0; e < dim; ++e) {
+				load(m_points.stress[component(d, e)], block, Vs[d][e]);
+				forLanes([&](int l) { Vs[d][e][l] *= V[l]; });
+			}
+		}
+	}
+	static double determinantOf(const Lanes (&F)[dim * dim], int l)
+	{
+		double f[dim * dim];
+		for (int k = 0; k < dim * dim; ++k)
+			f[k] = F[k][l];
+		return determinant<dim>(f);
 	}
 	static double nodalForce(int d, double Nip, const std::array<double, dim>& grad, const double (&fp)[dim], const double (&Vs)[dim][dim])
 	{
@@ -346,23 +490,19 @@ private:
 	void updateNodes()
 	{
 		m_band.fold(m_walls, m_mass, m_momentum, m_force, m_control.dt);
-		const double      dt = m_control.dt, damping = m_control.damping, least = leastMass();
-		const std::size_t count  = m_mass.size();
-		const bool        energy = m_control.trackEnergy;
-#pragma omp parallel for schedule(static) num_threads(m_control.threads) if (m_control.threads > 1 && count > 20000)
-		for (std::size_t i = 0; i < count; ++i)
+		const double dt = m_control.dt, damping = m_control.damping, least = leastMass();
+		const bool   energy = m_control.trackEnergy;
+		forEachGridNode([&](std::size_t i) {
+			const double mass = m_mass[i], over = mass > least ? 1 / mass : 0;
 			for (int d = 0; d < dim; ++d) {
-				double &v = m_momentum[d][i], &dv = m_force[d][i];
-				if (!(m_mass[i] > least)) {
-					v = dv = 0;
-					continue;
-				}
-				const double start = v / m_mass[i], a = dv / m_mass[i], trend = a * (start + .5 * dt * a);
+				double &     v = m_momentum[d][i], &dv = m_force[d][i];
+				const double start = v * over, a = dv * over, trend = a * (start + .5 * dt * a);
 				const double braking = damping * a * ((trend > 0) - (trend < 0));
 				dv                   = dt * (a - braking);
 				if (energy) m_tracking.damping[d][i] = braking;
 				v = start + dv;
 			}
+		});
 		m_band.unfold(m_walls, m_momentum, true);
 		m_band.unfold(m_walls, m_force, false);
 	}
@@ -373,42 +513,97 @@ private:
 	Step 4 (remap): (m v)_i = sum N_ip m_p v_p with the new velocities. */
 	template <bool remap> void gridToPoints(std::size_t t)
 	{
-		const auto&  tile = m_grid.tiles()[t];
-		const double dt = m_control.dt, flip = m_control.flip;
-		Patch        v[dim], dv[dim], mv[dim] {};
+		run(m_instructions, [this, t] { moveTile<remap>(t); });
+	}
+	template <bool remap> void moveTile(std::size_t t)
+	{
+		const Tile& tile = m_grid.tiles()[t];
+		Patch       v[dim], dv[dim], mv[dim] {};
 		for (int d = 0; d < dim; ++d)
 			read(tile, m_momentum[d], v[d]), read(tile, m_force[d], dv[d]);
 		bool left = false;
-		for (std::size_t p = tile.begin; p < tile.end; ++p) {
-			const Weights w = weights(tile, p);
-			double        vp[dim] {}, dvp[dim] {}, mvp[dim];
-			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
+		forEachBlock(tile.begin, tile.end, [&](Block block) {
+			Lanes       x[dim], mp, mvp[dim], vp[dim], dvp[dim];
+			WeightLanes w;
+			for (int d = 0; d < dim; ++d)
+				load(m_points.position[d], block, x[d]);
+			weights(tile, block, x, w);
+			for (int l = 0; l < lanes; ++l) {
+				const int from = std::min(l, block.count - 1);
 				for (int d = 0; d < dim; ++d)
-					vp[d] += Nip * v[d][i], dvp[d] += Nip * dv[d][i];
-			});
-			for (int d = 0; d < dim; ++d) {
-				double& velocity = m_points.velocity[d][p];
-				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1)
-					vp[d] = velocity;
-				else
-					velocity = flip == 1 ? velocity + dvp[d] : flip * (velocity + dvp[d]) + (1 - flip) * vp[d];
-				m_points.advance[d][p] = dt * vp[d];
-				mvp[d]                 = m_points.mass[p] * velocity;
-				const double xi        = m_geometry.xi(d, m_points.position[d][p] + dt * vp[d]);
-				const double inTile    = xi - Shape::shift(halfSize(d, p)) - tile.index[d] * Grid::width;
-				left |= !(inTile >= 0 && inTile < Grid::width && xi >= m_geometry.xiMin[d] && xi <= m_geometry.xiMax[d]
-					  && std::isfinite(velocity));
+					vp[d][l] = gather<-1>(w[from], v[d]), dvp[d][l] = gather<-1>(w[from], dv[d]);
 			}
-			if (remap)
-				forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
+			load(m_points.mass, block, mp);
+			for (int d = 0; d < dim; ++d)
+				left |= movePoints(tile, block, d, x[d], mp, vp[d], dvp[d], mvp[d]);
+			if (!remap) return;
+			for (int l = 0; l < block.count; ++l)
+				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
+					const int at = w[l].first + offset;
+					double    c0mv[dim];
 					for (int d = 0; d < dim; ++d)
-						mv[d][i] += Nip * mvp[d];
+						c0mv[d] = c[0] * mvp[d][l];
+#pragma omp simd
+					for (int i = 0; i < row; ++i)
+						for (int d = 0; d < dim; ++d)
+							mv[d][at + i] += c0mv[d] * w[l].N_[0][i];
 				});
-		}
+		});
 		m_reports[t].left = left;
 		if (remap)
 			for (int d = 0; d < dim; ++d)
 				add(tile, mv[d], m_velocity[d]);
+	}
+	/* sum N_ip field_i (e = -1), or the component e of sum grad N_ip field_i, for the point with weights w. */
+	template <int e> static double gather(const Weights& w, const double* field)
+	{
+		const double *along = e == 0 ? w.dN[0] : w.N_[0], *nodes = field + w.first;
+		const double *c1 = nullptr, *c2 = nullptr; // weights along the other axes
+		if constexpr (dim > 1) c1 = e == 1 ? w.dN[1] : w.N_[1];
+		if constexpr (dim > 2) c2 = e == 2 ? w.dN[2] : w.N_[2];
+		alignas(8 * row) double part[row];
+#pragma omp simd
+		for (int i = 0; i < row; ++i) {
+			double sum = 0;
+			if constexpr (dim == 1) sum = nodes[i];
+			for (int j = 0; dim == 2 && j < support; ++j)
+				sum += c1[j] * nodes[j * extent + i];
+			for (int k = 0; dim == 3 && k < support; ++k)
+				for (int j = 0; j < support; ++j)
+					sum += c1[j] * c2[k] * nodes[(k * extent + j) * extent + i];
+			part[i] = sum * along[i];
+		}
+		if constexpr (row == 2)
+			return part[0] + part[1];
+		else
+			return (part[0] + part[1]) + (part[2] + part[3]);
+	}
+	/* New velocities and displacements along axis d; whether a point leaves the tile. */
+	bool movePoints(const Tile& tile, Block block, int d, const Lanes& x, const Lanes& mp, const Lanes& vp, const Lanes& dvp, Lanes& mvp)
+	{
+		const double dt = m_control.dt, flip = m_control.flip, origin = m_geometry.origin[d], cell = m_geometry.cell[d];
+		const double lower = m_geometry.xiMin[d], upper = m_geometry.xiMax[d], corner = tile.index[d] * Grid::width;
+		Lanes        velocity, advance, r {};
+		load(m_points.velocity[d], block, velocity);
+		const Lanes old = velocity;
+		if (Shape::usesSize) load(m_points.size, block, r);
+		forLanes([&](int l) { advance[l] = dt * vp[l]; });
+		if (flip == 1)
+			forLanes([&](int l) { velocity[l] += dvp[l]; });
+		else
+			forLanes([&](int l) { velocity[l] = flip * (velocity[l] + dvp[l]) + (1 - flip) * vp[l]; });
+		for (int l = 0; !m_points.fixed.empty() && l < block.count; ++l)
+			if (m_points.fixed[block.first + std::size_t(l)] >> d & 1) velocity[l] = old[l], advance[l] = dt * old[l];
+		int inside = 1;
+#pragma omp simd reduction(& : inside)
+		for (int l = 0; l < lanes; ++l) {
+			const double xi = (x[l] + advance[l] - origin) / cell, inTile = xi - Shape::shift(.5 * r[l] / cell) - corner;
+			mvp[l] = mp[l] * velocity[l];
+			inside &= (inTile >= 0) & (inTile < Grid::width) & (xi >= lower) & (xi <= upper) & (std::abs(velocity[l]) < infinity);
+		}
+		store(velocity, block, m_points.velocity[d]);
+		store(advance, block, m_points.advance[d]);
+		return !inside;
 	}
 
 	/* Step 4, at the nodes: v_i = (m v)_i / m_i, walls again. */
@@ -421,27 +616,99 @@ private:
 	void divideByMass(const Column& mass, NodeVector<dim>& field) const
 	{
 		const double least = leastMass();
-		for (Column& c : field)
-			for (std::size_t i = 0; i < mass.size(); ++i)
-				c[i] = mass[i] > least ? c[i] / mass[i] : 0;
+		forEachGridNode([&](std::size_t i) {
+			const double over = mass[i] > least ? 1 / mass[i] : 0;
+			for (Column& c : field)
+				c[i] *= over;
+		});
 	}
 
 	/* Step 5: grad v = sum v_i grad N_ip, strain increment, rotation, law, deformation; then the point moves   (eq. 16) */
 	void updateTileStress(std::size_t t)
 	{
-		const auto& tile = m_grid.tiles()[t];
+		run(m_instructions, [this, t] { strainTile(t); });
+	}
+	void strainTile(std::size_t t)
+	{
+		const Tile& tile = m_grid.tiles()[t];
 		Patch       v[dim];
 		for (int d = 0; d < dim; ++d)
 			read(tile, m_velocity[d], v[d]);
-		for (std::size_t p = tile.begin; p < tile.end; ++p) {
-			double G[dim * dim];
-			displacementGradient(weights(tile, p), v, m_stressControl.dt, G);
-			updatePointStress(t, p, G);
-			for (int d = 0; d < dim; ++d) {
-				m_points.position[d][p] += m_points.advance[d][p];
-				m_points.advance[d][p] = 0;
+		forEachBlock(tile.begin, tile.end, [&](Block block) { updateStressAndMove(t, tile, block, v); });
+	}
+	void updateStressAndMove(std::size_t t, const Tile& tile, Block block, const Patch (&v)[dim])
+	{
+		Lanes       x[dim], advance, G[dim * dim];
+		WeightLanes w;
+		for (int d = 0; d < dim; ++d)
+			load(m_points.position[d], block, x[d]);
+		weights(tile, block, x, w);
+		for (int l = 0; l < lanes; ++l)
+			displacementGradient(w[std::min(l, block.count - 1)], v, l, G);
+		if (!updateBlockStress(t, block, G))
+			for (int l = 0; l < block.count; ++l) {
+				double Gp[dim * dim];
+				for (int k = 0; k < dim * dim; ++k)
+					Gp[k] = G[k][l];
+				updatePointStress(t, block.first + std::size_t(l), Gp);
 			}
+		for (int d = 0; d < dim; ++d) {
+			load(m_points.advance[d], block, advance);
+			forLanes([&](int l) { x[d][l] += advance[l], advance[l] = 0; });
+			store(x[d], block, m_points.position[d]);
+			store(advance, block, m_points.advance[d]);
 		}
+	}
+	/* dt grad v of the point with weights w. */
+	void displacementGradient(const Weights& w, const Patch (&v)[dim], int l, Lanes (&G)[dim * dim]) const
+	{
+		for (int d = 0; d < dim; ++d) {
+			G[d * dim][l] = m_stressControl.dt * gather<0>(w, v[d]);
+			if constexpr (dim > 1) G[d * dim + 1][l] = m_stressControl.dt * gather<1>(w, v[d]);
+			if constexpr (dim > 2) G[d * dim + 2][l] = m_stressControl.dt * gather<2>(w, v[d]);
+		}
+	}
+	/* The stress update of a block at once, where the points share a law that can be; else returns false and does nothing. */
+	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[dim * dim])
+	{
+		const int  material = m_points.material[block.first];
+		const Law& law      = m_laws[material];
+		const bool thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning;
+		const bool elastic  = law.kind == Law::Kind::elastic;
+		if (m_stressControl.trackEnergy || thinning || !(elastic || (law.kind == Law::Kind::boucWen && law.boucWen.plain()))) return false;
+		for (int l = 1; l < block.count; ++l)
+			if (m_points.material[block.first + std::size_t(l)] != material) return false;
+
+		Lanes strain[N], sigma[N], eta[N], p, F[dim * dim];
+		for (int k = 0; k < N; ++k)
+			load(m_points.stress[k], block, sigma[k]);
+		for (int k = 0; k < N && !elastic; ++k)
+			load(m_points.internal[k], block, eta[k]);
+		if (!elastic) load(m_points.internal[N], block, p);
+		for (int k = 0; k < dim * dim; ++k)
+			load(m_points.deformation[k], block, F[k]);
+
+		if (!m_stressControl.largeStrain)
+			incrementLanes<S, false, false>(G, strain, F, sigma, eta);
+		else if (elastic)
+			incrementLanes<S, true, false>(G, strain, F, sigma, eta);
+		else
+			incrementLanes<S, true, true>(G, strain, F, sigma, eta);
+		if (elastic)
+			elasticLanes<S>(law.elastic, strain, sigma);
+		else
+			boucWenLanes<S>(law.boucWen, strain, sigma, eta, p);
+
+		for (int k = 0; k < N; ++k)
+			store(sigma[k], block, m_points.stress[k]);
+		for (int k = 0; k < N && !elastic; ++k)
+			store(eta[k], block, m_points.internal[k]);
+		if (!elastic) store(p, block, m_points.internal[N]);
+		for (int k = 0; k < dim * dim; ++k)
+			store(F[k], block, m_points.deformation[k]);
+		for (int l = 0; l < block.count; ++l)
+			if (!(determinantOf(F, l) > 0) && m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(block.first) + l;
+		return true;
 	}
 	static void displacementGradient(const Weights& w, const Patch (&v)[dim], double dt, double (&G)[dim * dim])
 	{
@@ -454,7 +721,7 @@ private:
 		for (double& g : G)
 			g *= dt;
 	}
-	void updatePointStress(std::size_t t, std::size_t p, const double (&G)[dim * dim])
+	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[dim * dim])
 	{
 		constexpr int   maxInternal = 64;
 		const Law&      law         = m_laws[m_points.material[p]];

@@ -98,15 +98,33 @@ struct Points {
 	/* Keeps the points order[0], order[1], ... in this order and drops the others. */
 	void select(const std::vector<std::size_t>& order)
 	{
-		auto gather = [&](auto& column) {
+		auto gather = [&](auto& column, auto& kept) {
 			if (column.empty()) return;
-			std::remove_reference_t<decltype(column)> kept(order.size());
+			kept.resize(order.size());
 			for (std::size_t k = 0; k < order.size(); ++k)
 				kept[k] = column[order[k]];
 			column.swap(kept);
 		};
-		forEachColumn(gather);
-		forEachIndexColumn(gather);
+		forEachColumn([&, kept = Column()](auto& column) mutable { gather(column, kept); });
+		forEachIndexColumn([&](auto& column) {
+			std::remove_reference_t<decltype(column)> kept;
+			gather(column, kept);
+		});
+		++generation;
+	}
+	/* Moves point from[k] to place to[k]; the one is a permutation of the other. */
+	void move(const std::vector<std::size_t>& from, const std::vector<std::size_t>& to)
+	{
+		auto permute = [&](auto& column) {
+			if (column.empty()) return;
+			std::remove_reference_t<decltype(column)> moved(from.size());
+			for (std::size_t k = 0; k < from.size(); ++k)
+				moved[k] = column[from[k]];
+			for (std::size_t k = 0; k < to.size(); ++k)
+				column[to[k]] = moved[k];
+		};
+		forEachColumn(permute);
+		forEachIndexColumn(permute);
 		++generation;
 	}
 };

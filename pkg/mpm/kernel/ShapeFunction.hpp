@@ -9,15 +9,16 @@ namespace yade::mpm {
 
 Each struct has
   support          number of consecutive nodes that a point touches
+  row              the same, filled up to a whole number of vectors
   usesSize         whether the point's own size enters
   shift(r)         the first of those nodes is base = floor(xi - shift), for a point at xi (in cells, from node 0)
-  evaluate(...)    values N[k] and derivatives dN[k] = dN/dxi at nodes base+k
+  evaluate(...)    values N[k] and derivatives dN[k] = dN/dxi at nodes base+k, k < support or < row
 
 where r is half the point's size in cells (only GIMP looks at it). Steffen, Kirby & Berzins, Int. J. Numer. Meth.
 Engng 76 (2008) 922; the quadratic spline is centred at a node, its knots at mid-cells. */
 
 struct LinearShape {
-	static constexpr int  support  = 2;
+	static constexpr int  support = 2, row = 2;
 	static constexpr bool usesSize = false;
 	static double         shift(double) { return 0; }
 	static void           evaluate(double xi, double base, double, double* N, double* dN)
@@ -29,35 +30,46 @@ struct LinearShape {
 };
 
 struct QuadraticShape {
-	static constexpr int  support  = 3;
+	static constexpr int  support = 3, row = 4;
 	static constexpr bool usesSize = false;
 	static double         shift(double) { return .5; }
-	static void           evaluate(double xi, double base, double, double* N, double* dN)
+	/* N = a + b u^2, u = o + g s, with s from the middle node, in [-1/2, 1/2) */
+	template <int count = support> static void evaluate(double xi, double base, double, double* N, double* dN)
 	{
-		const double s = xi - base - 1; // from the middle node, in [-1/2, 1/2)
-		N[0] = .5 * (.5 - s) * (.5 - s), N[1] = .75 - s * s, N[2] = .5 * (.5 + s) * (.5 + s);
-		dN[0] = s - .5, dN[1] = -2 * s, dN[2] = s + .5;
+		constexpr double a[4] = { 0, .75, 0, 0 }, b[4] = { .5, -1, .5, 0 }, o[4] = { .5, 0, .5, 0 }, g[4] = { -1, 1, 1, 0 };
+		const double     s = xi - base - 1;
+#pragma omp simd
+		for (int k = 0; k < count; ++k) {
+			const double u = o[k] + g[k] * s;
+			N[k]           = a[k] + b[k] * u * u;
+			dN[k]          = 2 * g[k] * b[k] * u;
+		}
 	}
 };
 
 struct CubicShape {
-	static constexpr int  support  = 4;
+	static constexpr int  support = 4, row = 4;
 	static constexpr bool usesSize = false;
 	static double         shift(double) { return 1; }
-	static void           evaluate(double xi, double base, double, double* N, double* dN)
+	/* N = a + u^2 (b + c u), u = o + g s: the distance from one of the two middle nodes, in [0, 1] */
+	template <int count = support> static void evaluate(double xi, double base, double, double* N, double* dN)
 	{
-		const double s = xi - base - 1, t = 1 - s; // from the two middle nodes, in [0, 1]
-		N[0] = t * t * t / 6, N[3] = s * s * s / 6;
-		N[1] = 2. / 3 - s * s * (1 - .5 * s), N[2] = 2. / 3 - t * t * (1 - .5 * t);
-		dN[0] = -.5 * t * t, dN[3] = .5 * s * s;
-		dN[1] = s * (1.5 * s - 2), dN[2] = -t * (1.5 * t - 2);
+		constexpr double a[4] = { 0, 2. / 3, 2. / 3, 0 }, b[4] = { 0, -1, -1, 0 }, c[4] = { 1. / 6, .5, .5, 1. / 6 };
+		constexpr double o[4] = { 1, 0, 1, 0 }, g[4] = { -1, 1, -1, 1 };
+		const double     s = xi - base - 1;
+#pragma omp simd
+		for (int k = 0; k < count; ++k) {
+			const double u = o[k] + g[k] * s;
+			N[k]           = a[k] + u * u * (b[k] + c[k] * u);
+			dN[k]          = g[k] * u * (2 * b[k] + 3 * c[k] * u);
+		}
 	}
 };
 
 /* Uniform GIMP: the hat averaged over the point's initial domain [xi - r, xi + r], 0 < r <= 1/2.
 Bardenhagen & Kober, CMES 5 (2004) 477. */
 struct GimpShape {
-	static constexpr int  support  = 3;
+	static constexpr int  support = 3, row = 4;
 	static constexpr bool usesSize = true;
 	static double         shift(double r) { return r; }
 	static void           evaluate(double xi, double base, double r, double* N, double* dN)

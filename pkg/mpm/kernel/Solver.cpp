@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "MpmSolver.hpp"
+#include "Solver.hpp"
 
 namespace yade::mpm {
 
@@ -16,27 +16,15 @@ int stressComponents(Analysis analysis)
 	throw std::logic_error("unknown analysis");
 }
 
-namespace {
-	template <class S>
-	std::unique_ptr<Solver> make(Analysis a, ShapeKind shape, double cellSize, Points& points, const std::vector<Law>& laws, std::vector<Wall>& walls)
-	{
-		switch (shape) {
-			case ShapeKind::linear: return std::make_unique<MpmSolver<S, LinearShape>>(a, cellSize, points, laws, walls);
-			case ShapeKind::gimp: return std::make_unique<MpmSolver<S, GimpShape>>(a, cellSize, points, laws, walls);
-			case ShapeKind::quadratic: return std::make_unique<MpmSolver<S, QuadraticShape>>(a, cellSize, points, laws, walls);
-			case ShapeKind::cubic: return std::make_unique<MpmSolver<S, CubicShape>>(a, cellSize, points, laws, walls);
-		}
-		throw std::logic_error("unknown shape function");
-	}
-} // namespace
+template <class S> std::unique_ptr<Solver> makeSolverOf(Analysis, ShapeKind, double, Points&, const std::vector<Law>&, std::vector<Wall>&);
 
 std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double cellSize, Points& points, const std::vector<Law>& laws, std::vector<Wall>& walls)
 {
 	switch (analysis) {
-		case Analysis::uniaxial: return make<Uniaxial>(analysis, shape, cellSize, points, laws, walls);
-		case Analysis::planeStress: return make<PlaneStress>(analysis, shape, cellSize, points, laws, walls);
-		case Analysis::planeStrain: return make<PlaneStrain>(analysis, shape, cellSize, points, laws, walls);
-		case Analysis::solid: return make<Solid>(analysis, shape, cellSize, points, laws, walls);
+		case Analysis::uniaxial: return makeSolverOf<Uniaxial>(analysis, shape, cellSize, points, laws, walls);
+		case Analysis::planeStress: return makeSolverOf<PlaneStress>(analysis, shape, cellSize, points, laws, walls);
+		case Analysis::planeStrain: return makeSolverOf<PlaneStrain>(analysis, shape, cellSize, points, laws, walls);
+		case Analysis::solid: return makeSolverOf<Solid>(analysis, shape, cellSize, points, laws, walls);
 	}
 	throw std::logic_error("unknown analysis");
 }

@@ -19,7 +19,7 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	layGrid();
 	m_band.releaseContacts();
 	clear(m_mass), clear(m_momentum);
-	forEachTile([&](std::size_t t) { pointsToGrid<false, false>(t); });
+	forEachTile([&](std::size_t t) { pointsToGrid<false>(t); });
 	const std::size_t nodes = m_mass.size();
 	NodeVector<dim>   f;
 	for (Column& c : f)

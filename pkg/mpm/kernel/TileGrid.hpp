@@ -47,22 +47,72 @@ public:
 		return at == m_blocks.end() || *at != block ? -1 : (at - m_blocks.begin()) * nodes + local;
 	}
 
-	/* Sorts the points by tile, and by cell inside a tile where they are not in order of tiles already, and finds the
-	blocks. bases[d][p] is the first node of point p along axis d. */
-	void sort(Points& points, const std::array<std::vector<int>, dim>& bases)
+	/* Brings the points of a tile together and finds the blocks, from the first nodes of the points: bases[d][p] along axis
+	d. What comes of it depends on the points' order and bases alone. Few points are moved where few are out of place; else
+	all are sorted, by tile and by cell inside a tile. Returns whether the blocks are other ones than before. */
+	bool sort(Points& points, const std::array<std::vector<int>, dim>& bases)
 	{
-		const std::size_t        count = points.count();
-		std::vector<std::size_t> order(count);
-		std::iota(order.begin(), order.end(), std::size_t(0));
-		auto tileLess = [&](std::size_t p, std::size_t q) { return compare(bases, p, q, log2Width) < 0; };
-		if (!std::is_sorted(order.begin(), order.end(), tileLess)) {
-			std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
-				const int tile = compare(bases, p, q, log2Width);
-				return tile ? tile < 0 : compare(bases, p, q, 0) < 0;
-			});
-			points.select(order);
+		const std::size_t count  = points.count();
+		auto              tileOf = [&](std::size_t p) {
+                        Index index;
+                        for (int d = 0; d < dim; ++d)
+                                index[d] = bases[d][p] >> log2Width;
+                        return index;
+		};
+		struct Run { // of points that follow each other and share a tile
+			std::size_t begin, end, tile;
+			Index       index;
+		};
+		std::vector<Run> runs;
+		for (std::size_t p = 0; p < count; ++p) {
+			const Index index = tileOf(p);
+			if (runs.empty() || runs.back().index != index) runs.push_back({ p, p, 0, index });
+			runs.back().end = p + 1;
 		}
-		collect(order, bases);
+		m_tiles.clear();
+		for (const Run& run : runs)
+			m_tiles.push_back({ run.index, 0, 0, {} });
+		auto before = [](const Tile& a, const Tile& b) { return a.index < b.index; };
+		std::sort(m_tiles.begin(), m_tiles.end(), before);
+		m_tiles.erase(std::unique(m_tiles.begin(), m_tiles.end(), [](const Tile& a, const Tile& b) { return a.index == b.index; }), m_tiles.end());
+		for (Run& run : runs) {
+			run.tile = std::size_t(std::lower_bound(m_tiles.begin(), m_tiles.end(), Tile { run.index, 0, 0, {} }, before) - m_tiles.begin());
+			m_tiles[run.tile].end += run.end - run.begin;
+		}
+		for (std::size_t t = 1; t < m_tiles.size(); ++t)
+			m_tiles[t].begin = m_tiles[t - 1].end, m_tiles[t].end += m_tiles[t].begin;
+
+		// points out of their tile's range; the places that they leave are those that they take, tile by tile
+		std::vector<std::pair<std::size_t, std::size_t>> strays; // tile, place
+		for (const Run& run : runs)
+			for (std::size_t p = run.begin; p < run.end; ++p)
+				if (p < m_tiles[run.tile].begin || p >= m_tiles[run.tile].end) strays.push_back({ run.tile, p });
+		if (strays.size() > count / 4) {
+			std::vector<std::size_t> at(m_tiles.size() * nodes + 1, 0), order(count);
+			auto                     cell = [&](std::size_t p, std::size_t tile) {
+                                int local = 0;
+                                for (int d = 0; d < dim; ++d)
+                                        local = local * width + (bases[d][p] & (width - 1));
+                                return tile * nodes + std::size_t(local);
+			};
+			for (const Run& run : runs)
+				for (std::size_t p = run.begin; p < run.end; ++p)
+					++at[cell(p, run.tile) + 1];
+			std::partial_sum(at.begin(), at.end(), at.begin());
+			for (const Run& run : runs)
+				for (std::size_t p = run.begin; p < run.end; ++p)
+					order[at[cell(p, run.tile)]++] = p;
+			points.select(order);
+		} else if (!strays.empty()) {
+			std::vector<std::size_t> from, to;
+			for (const auto& stray : strays)
+				to.push_back(stray.second);
+			std::sort(strays.begin(), strays.end());
+			for (const auto& stray : strays)
+				from.push_back(stray.second);
+			points.move(from, to);
+		}
+		return findBlocks();
 	}
 
 private:
@@ -70,37 +120,21 @@ private:
 	std::array<std::vector<int>, corners> m_colours;
 	std::vector<Index>                    m_blocks;
 
-	static int compare(const std::array<std::vector<int>, dim>& bases, std::size_t p, std::size_t q, int shift)
+	bool findBlocks()
 	{
-		for (int d = 0; d < dim; ++d) {
-			const int a = bases[d][p] >> shift, b = bases[d][q] >> shift;
-			if (a != b) return a < b ? -1 : 1;
-		}
-		return 0;
-	}
-
-	/* order[k]: where the point that is now k-th was when bases was filled. */
-	void collect(const std::vector<std::size_t>& order, const std::array<std::vector<int>, dim>& bases)
-	{
-		m_tiles.clear();
-		for (std::size_t k = 0; k < order.size(); ++k) {
-			Index index;
-			for (int d = 0; d < dim; ++d)
-				index[d] = bases[d][order[k]] >> log2Width;
-			if (m_tiles.empty() || m_tiles.back().index != index) m_tiles.push_back({ index, k, k, {} });
-			m_tiles.back().end = k + 1;
-		}
 		auto neighbour = [](Index index, int corner) {
 			for (int d = 0; d < dim; ++d)
 				index[d] += corner >> d & 1;
 			return index;
 		};
-		m_blocks.clear();
+		std::vector<Index> blocks;
 		for (const Tile& tile : m_tiles)
 			for (int c = 0; c < corners; ++c)
-				m_blocks.push_back(neighbour(tile.index, c));
-		std::sort(m_blocks.begin(), m_blocks.end());
-		m_blocks.erase(std::unique(m_blocks.begin(), m_blocks.end()), m_blocks.end());
+				blocks.push_back(neighbour(tile.index, c));
+		std::sort(blocks.begin(), blocks.end());
+		blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+		const bool changed = blocks != m_blocks;
+		m_blocks.swap(blocks);
 		for (auto& colour : m_colours)
 			colour.clear();
 		for (std::size_t t = 0; t < m_tiles.size(); ++t) {
@@ -112,6 +146,7 @@ private:
 			for (int c = 0; c < corners; ++c)
 				tile.blocks[c] = int(std::lower_bound(m_blocks.begin(), m_blocks.end(), neighbour(tile.index, c)) - m_blocks.begin());
 		}
+		return changed;
 	}
 };
 
