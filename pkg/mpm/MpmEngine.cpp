@@ -203,11 +203,14 @@ void MpmEngine::prepareSolver()
 	}
 	if (shape == "gimp") checkGimp();
 
-	int internals = 0;
-	for (const mpm::Law& law : runtime.laws)
+	int  internals  = 0;
+	bool freeNormal = false;
+	for (const mpm::Law& law : runtime.laws) {
+		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !mpm::keepsVolume(law));
 		internals = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
+	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
-	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0, scene->trackEnergy);
+	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0, scene->trackEnergy, freeNormal);
 }
 
 void MpmEngine::checkPoints(int dim) const

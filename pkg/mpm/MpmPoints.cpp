@@ -184,9 +184,13 @@ Matrix3r MpmPoints::strain(std::size_t p) const
 		strain = stretch.eigenvectors() * logarithms.asDiagonal() * stretch.eigenvectors().transpose();
 	} else
 		strain = .5 * (F + F.transpose()) - Matrix3r::Identity();
-	if (points.stress.size() == 3) { // plane stress: plastic flow keeps the volume
-		const auto& elastic = dynamic_cast<const ElastMat&>(*materials[std::size_t(points.material[p])]);
-		strain(2, 2)        = (1 - 2 * elastic.poisson) / elastic.young * stress(p).trace() - strain(0, 0) - strain(1, 1);
+	if (points.stress.size() == 3) { // plane stress: the thickness is free to follow, whether or not the method follows it
+		if (!points.freeStrain.empty() && !keepsVolume(runtime.laws[std::size_t(points.material[p])]))
+			strain(2, 2) = points.freeStrain[p];
+		else {
+			const auto& elastic = dynamic_cast<const ElastMat&>(*materials[std::size_t(points.material[p])]);
+			strain(2, 2)        = (1 - 2 * elastic.poisson) / elastic.young * stress(p).trace() - strain(0, 0) - strain(1, 1);
+		}
 	}
 	return strain;
 }
@@ -253,7 +257,8 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 		        int(points.internal.size()),
 		        !points.thicknessStretch.empty(),
 		        !points.force.empty(),
-		        !points.dissipation.empty());
+		        !points.dissipation.empty(),
+		        !points.freeStrain.empty());
 	return ids;
 }
 

@@ -26,6 +26,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
+	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 } // namespace boost::serialization

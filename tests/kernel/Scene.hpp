@@ -75,7 +75,7 @@ struct Scene {
 		int internals = 0;
 		for (const Law& law : laws)
 			internals = std::max(internals, Internals::of(law).columns(stressComponents(analysis)));
-		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning, forces, control.trackEnergy);
+		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning, forces, control.trackEnergy, false);
 		solver = makeSolver(analysis, shape, cellSize, points, laws, walls);
 	}
 	/* The same points, laws and walls under a solver of their own: a saved scene that has been loaded. */

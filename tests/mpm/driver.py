@@ -227,7 +227,8 @@ def follow(material, strain, steps):
 
 
 for material in (FrictMat(**soft), BoucWenMat(n=2, tangentRatio=.05, yieldStress=strength, **soft), BoucWenMat(n=25, tangentRatio=.05, yieldStress=strength, reloading=inf, isotropicModulus=1e4, **soft),
-		J2Mat(tangentRatio=.05, yieldStress=strength, **soft), DruckerPragerMat(cohesion=500, internalFriction=.4, **soft)):
+		J2Mat(tangentRatio=.05, yieldStress=strength, **soft), DruckerPragerMat(cohesion=500, internalFriction=.4, **soft),
+		DruckerPragerMat(cohesion=500, internalFriction=.4, dilatancy=.3, **soft), BoucWenMat(n=5, yieldStress=strength, stiffnessDegradation=1, **soft)):
 	(strain, stress, backStress, plasticStrain), steps = stretch(material)
 	what = 'a stretched block of %s%s: ' % (type(material).__name__, ', n = %g' % material.n if isinstance(material, BoucWenMat) else '')
 	near(what + 'homogeneous', strain[:, :, :2, :2]/1e-3, strain[:, :1, :2, :2].repeat(16, axis=1)/1e-3, 1e-9)

@@ -22,6 +22,12 @@ struct Law {
 	double stiffnessBound() const { return kind == Kind::boucWen ? boucWen.stiffnessBound() : 1; }
 };
 
+/* Whether tr eps = (1 - 2 nu)/E tr sigma always: flow keeps the volume, and the compliance stays. */
+inline bool keepsVolume(const Law& law)
+{
+	return law.kind != Law::Kind::druckerPrager && !(law.kind == Law::Kind::boucWen && law.boucWen.stiffnessDegradation != 0);
+}
+
 /* Empty, or what is wrong with a law's parameters: attribute, value and remedy. */
 std::string validate(const Law& law);
 

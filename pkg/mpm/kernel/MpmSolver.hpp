@@ -743,10 +743,11 @@ private:
 		} else
 			increment.small(G);
 		const bool thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning;
-		if (m_stressControl.trackEnergy || thinning) {
+		if (m_stressControl.trackEnergy || thinning || !m_points.freeStrain.empty()) {
 			Response         response;
 			const StressWork work(*this, law, p, F, increment.strain, sigma, internal);
 			updateStress<S>(law, increment.strain, sigma, internal, &response);
+			if (!m_points.freeStrain.empty()) m_points.freeStrain[p] += response.freeStrain;
 			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * response.freeStrain) / (1 - .5 * response.freeStrain);
 			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
 			if (m_stressControl.trackEnergy) work.add(F, sigma, internal, response, m_tracking.tiles[t]);

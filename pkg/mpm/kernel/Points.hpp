@@ -15,7 +15,8 @@ using Columns = std::vector<Column>; // one column a component
 against walls, damping) and what comes in (external work, negative) are terms of it.
 
 They are those of the start of a step, where the leapfrog scheme knows positions and stress: velocities belong half a step
-before and after it, and the kinetic energy is the mean of the two. So the sum is accurate to second order in dt. */
+before and after it, and the kinetic energy is the mean of the two. The sum is then accurate to second order in dt, but for
+the points' motion over the grid between one mapping and the next, which leaves a small term of first order. */
 struct Energies {
 	double kinetic = 0, elastic = 0, hardening = 0, dissipation = 0, external = 0, damping = 0, walls = 0;
 	bool   started = false; // whether they are being tracked
@@ -31,7 +32,7 @@ struct Energies {
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), fixed (no prescribed motion). */
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion). */
 struct Points {
 	std::vector<int>          id;                             // of the point: its body's, or negative where it has none
 	std::vector<int>          material;                       // index into the scene's table of laws
@@ -43,6 +44,7 @@ struct Points {
 	Columns                   force;                          // external, but for gravity [N]
 	Column                    thicknessStretch;               // F_zz of thinning plane stress
 	Column                    dissipation;                    // heat per undeformed volume [J/m3], where energies are tracked
+	Column                    freeStrain;                     // eps_zz in plane stress, of laws that do not keepsVolume()
 	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
 	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
 
@@ -60,6 +62,7 @@ struct Points {
 				visit(c);
 		visit(thicknessStretch);
 		visit(dissipation);
+		visit(freeStrain);
 	}
 	template <class Visitor> void forEachIndexColumn(Visitor&& visit)
 	{
@@ -77,8 +80,9 @@ struct Points {
 			position[d].push_back(x[d]), velocity[d].push_back(v[d]);
 	}
 	/* Gives every point the columns of an analysis: dim axes, stresses of the given number of components, internal
-	variables, and where asked for the thickness stretch, the external forces and the dissipation. New entries are those of a point at rest. */
-	void prepare(int dim, int components, int internals, bool thinning, bool forces, bool energy)
+	variables, and where asked for the thickness stretch, the external forces, the dissipation and the
+	strain of the free normal. New entries are those of a point at rest. */
+	void prepare(int dim, int components, int internals, bool thinning, bool forces, bool energy, bool freeNormal)
 	{
 		const std::size_t n     = count();
 		auto              shape = [n](Columns& columns, int number, auto&& initial) {
@@ -91,6 +95,7 @@ struct Points {
 		shape(deformation, dim * dim, [dim](int k) { return k % (dim + 1) == 0 ? 1. : 0.; });
 		shape(force, forces ? dim : 0, zero);
 		thicknessStretch.resize(thinning ? n : 0, 1.);
+		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
 	}

@@ -35,7 +35,6 @@ isotropic elasticity and of von Mises' criterion are on them. Strains carry engi
   back(s,b)         the direction in which Prager's back stress moves: b = s where the out-of-plane stress is
 		    imposed (Simo & Taylor, IJNME 22 (1986) 649), the deviator of s elsewhere
   solid[k]          which of the components xx, yy, zz, yz, zx, xy of Solid the k-th is
-  pWaveModulus(C)   greatest c^2 rho over all directions
 
 The normal components that a state lacks are stress-free where out-of-plane stress is imposed, and their strain follows.
 
@@ -47,7 +46,6 @@ struct Uniaxial { // sigma_xx alone
 	static double        mises2(const double* s) { return s[0] * s[0]; }
 	static void          normal(const double* s, double f, double* a) { a[0] = s[0] / f; }
 	static void          back(const double* s, double* b) { b[0] = s[0]; }
-	static double        pWaveModulus(const Hooke& C) { return C.young; }
 };
 
 struct PlaneStress { // xx, yy, xy
@@ -64,7 +62,6 @@ struct PlaneStress { // xx, yy, xy
 		a[0] = xx, a[1] = yy, a[2] = 3 * s[2] / f;
 	}
 	static void   back(const double* s, double* b) { b[0] = s[0], b[1] = s[1], b[2] = s[2]; }
-	static double pWaveModulus(const Hooke& C) { return C.plane; }
 };
 
 struct PlaneStrain { // xx, yy, zz, xy
@@ -93,7 +90,6 @@ struct PlaneStrain { // xx, yy, zz, xy
 		const double m = (s[0] + s[1] + s[2]) / 3;
 		b[0] = s[0] - m, b[1] = s[1] - m, b[2] = s[2] - m, b[3] = s[3];
 	}
-	static double pWaveModulus(const Hooke& C) { return C.lame + 2 * C.shear; }
 };
 
 struct Solid { // xx, yy, zz, yz, zx, xy
@@ -121,7 +117,6 @@ struct Solid { // xx, yy, zz, yz, zx, xy
 		for (int k = 0; k < 3; ++k)
 			b[k] = s[k] - m, b[k + 3] = s[k + 3];
 	}
-	static double pWaveModulus(const Hooke& C) { return C.lame + 2 * C.shear; }
 };
 
 /* The first `kept` normal components and all shears; the other normals are stress-free. Uniaxial and PlaneStress are
@@ -167,7 +162,6 @@ template <int kept> struct FreeNormals {
 		for (int k = 0; k < N; ++k)
 			b[k] = s[k];
 	}
-	static double pWaveModulus(const Hooke& C) { return kept == 2 ? C.plane : kept == 1 ? C.young : C.shear; }
 };
 
 /* How many normal components a stress state has; they come first. */
