@@ -64,7 +64,7 @@ def main():
 	watched = int(np.argmin((corner[:, 0] - .06)**2 + (corner[:, 1] - HEIGHT/2)**2)) # an outer fibre near the support
 	history, energies, loop = [], [], []
 	steps, start = int(DURATION/O.dt) + 1, time.time()
-	samples = 400
+	samples = 200
 	for k in range(samples):
 		O.run(steps*(k + 1)//samples - O.iter, True)
 		history.append((O.time, 1.5*deflection(tip) - .5*deflection(beside)))

@@ -33,7 +33,7 @@ namespace {
 
 bool isSupported(InstructionSet set)
 {
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef MPM_HAS_INSTRUCTION_SETS
 	const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 	switch (set) {
 		case InstructionSet::sse2: return true;

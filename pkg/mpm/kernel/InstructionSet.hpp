@@ -6,7 +6,8 @@ namespace yade::mpm {
 /* Instruction sets that the solver's passes over the points are compiled for. The best that the processor has is used;
 the environment variable MPM_INSTRUCTIONS (sse2, avx2 or avx512) or useInstructionSet() choose another one for the solvers
 made afterwards. Results differ between instruction sets by rounding, since AVX2 and AVX-512 contract a*b + c to one
-operation and sum in another order; they never differ between numbers of threads. */
+operation and sum in another order; they never differ between numbers of threads. MPM_BASELINE, defined when compiling,
+leaves out all but the first: instrumented builds compile several times as fast. */
 enum class InstructionSet { sse2, avx2, avx512 };
 
 InstructionSet instructionSet();
@@ -15,7 +16,8 @@ bool           isSupported(InstructionSet set);
 void        useInstructionSet(InstructionSet set);
 const char* name(InstructionSet set);
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(MPM_BASELINE)
+#	define MPM_HAS_INSTRUCTION_SETS
 #	define MPM_TARGET(features) __attribute__((noinline, flatten, target(features)))
 #else
 #	define MPM_TARGET(features)
