@@ -30,7 +30,7 @@ private:
 };
 
 /* Bytes for Python, uninitialised, and where to write them. */
-template <class T> ::boost::python::object newBytes(std::size_t count, T*& data)
+template <class T>::boost::python::object newBytes(std::size_t count, T*& data)
 {
 	::boost::python::object bytes(::boost::python::handle<>(PyByteArray_FromStringAndSize(nullptr, Py_ssize_t(count * sizeof(T)))));
 	data = reinterpret_cast<T*>(PyByteArray_AsString(bytes.ptr()));

@@ -30,7 +30,8 @@ namespace {
 		law.pinchingLevel        = m.pinchingLevel;
 		law.pinchingWidth        = m.pinchingWidth;
 		law.reloading            = m.reloading;
-		if (m.loadingRule == "paper") law.loadingRule = mpm::BoucWenParameters::LoadingRule::paper;
+		if (m.loadingRule == "paper")
+			law.loadingRule = mpm::BoucWenParameters::LoadingRule::paper;
 		else if (m.loadingRule != "normal")
 			refuse(name, "loadingRule", "'" + m.loadingRule + "'", "choose 'normal', or 'paper' for comparison");
 		return law;
@@ -50,7 +51,8 @@ mpm::Law lawOf(const Material& material)
 	const auto*       elastic = dynamic_cast<const ElastMat*>(&material);
 	if (!elastic)
 		throw std::runtime_error(
-		        name + " has no law for material points: give them an ElastMat, a FrictMat (linear elastic), a BoucWenMat, a J2Mat or a DruckerPragerMat");
+			name
+			+ " has no law for material points: give them an ElastMat, a FrictMat (linear elastic), a BoucWenMat, a J2Mat or a DruckerPragerMat");
 
 	mpm::Law law;
 	require(elastic->density > 0 && std::isfinite(elastic->density), name, "density", elastic->density, "give a density > 0 [kg/m3]");
@@ -61,7 +63,8 @@ mpm::Law lawOf(const Material& material)
 		law.boucWen = parametersOf(*boucWen, name, law.elastic);
 	} else if (const auto* j2 = dynamic_cast<const J2Mat*>(&material)) {
 		law.kind = mpm::Law::Kind::j2;
-		law.j2   = { law.elastic, j2->yieldStress, hardeningModulus(name, j2->young, j2->tangentRatio), { j2->isotropicModulus, j2->saturationStress, j2->saturationRate } };
+		law.j2   = { law.elastic, j2->yieldStress, hardeningModulus(name, j2->young, j2->tangentRatio),
+			  { j2->isotropicModulus, j2->saturationStress, j2->saturationRate } };
 	} else if (const auto* cone = dynamic_cast<const DruckerPragerMat*>(&material)) {
 		law.kind          = mpm::Law::Kind::druckerPrager;
 		law.druckerPrager = { law.elastic, cone->cohesion, cone->internalFriction, cone->dilatancy };

@@ -3,13 +3,13 @@
 #include "BadInput.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
+#include <chrono>
 #include <core/BodyContainer.hpp>
-#include <core/EnergyTracker.hpp>
 #include <core/Bound.hpp>
+#include <core/EnergyTracker.hpp>
 #include <core/ForceContainer.hpp>
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
-#include <chrono>
 #include <omp.h>
 #include <thread>
 
@@ -18,7 +18,8 @@ namespace yade {
 namespace {
 	const char* const self = "MpmEngine";
 
-	template <class Value> Value choose(const std::string& attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
+	template <class Value>
+	Value choose(const std::string& attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
 	{
 		std::string names;
 		for (const auto& [name, value] : choices) {
@@ -31,20 +32,14 @@ namespace {
 	mpm::Analysis analysisOf(const std::string& name)
 	{
 		if (name == "axisymmetric") refuse(self, "analysis", "'axisymmetric'", "this version has 'planeStress', 'planeStrain' and '3d'");
-		return choose<mpm::Analysis>(
-		        "analysis",
-		        name,
-		        { { "planeStress", mpm::Analysis::planeStress }, { "planeStrain", mpm::Analysis::planeStrain }, { "3d", mpm::Analysis::solid } });
+		return choose<mpm::Analysis>("analysis", name,
+			{ { "planeStress", mpm::Analysis::planeStress }, { "planeStrain", mpm::Analysis::planeStrain }, { "3d", mpm::Analysis::solid } });
 	}
 	mpm::ShapeKind shapeOf(const std::string& name)
 	{
-		return choose<mpm::ShapeKind>(
-		        "shape",
-		        name,
-		        { { "linear", mpm::ShapeKind::linear },
-		          { "gimp", mpm::ShapeKind::gimp },
-		          { "quadratic", mpm::ShapeKind::quadratic },
-		          { "cubic", mpm::ShapeKind::cubic } });
+		return choose<mpm::ShapeKind>("shape", name,
+			{ { "linear", mpm::ShapeKind::linear }, { "gimp", mpm::ShapeKind::gimp }, { "quadratic", mpm::ShapeKind::quadratic },
+				{ "cubic", mpm::ShapeKind::cubic } });
 	}
 	mpm::Scheme schemeOf(const std::string& name)
 	{
@@ -85,14 +80,9 @@ void MpmEngine::step()
 void MpmEngine::reportEnergies() const
 {
 	const mpm::Energies& e = m_points->points.energies;
-	for (const auto& [name, value] : std::initializer_list<std::pair<const char*, Real>> {
-	             { "mpmKinetic", e.kinetic },
-	             { "mpmElastic", e.elastic },
-	             { "mpmHardening", e.hardening },
-	             { "mpmDissipation", e.dissipation },
-	             { "mpmExternal", e.external },
-	             { "mpmDamping", e.damping },
-	             { "mpmWalls", e.walls } })
+	for (const auto& [name, value] :
+		std::initializer_list<std::pair<const char*, Real>> { { "mpmKinetic", e.kinetic }, { "mpmElastic", e.elastic }, { "mpmHardening", e.hardening },
+			{ "mpmDissipation", e.dissipation }, { "mpmExternal", e.external }, { "mpmDamping", e.damping }, { "mpmWalls", e.walls } })
 		scene->energy->setItem_py(name, value);
 }
 
@@ -117,23 +107,22 @@ std::unique_lock<std::mutex> MpmEngine::attach()
 
 mpm::StepControl MpmEngine::prepare()
 {
-	require(cellSize > 0 && std::isfinite(cellSize), self, "cellSize", cellSize, "give the edge of a grid cell > 0 [m], e.g. twice the spacing of mpm.fill");
+	require(cellSize > 0 && std::isfinite(cellSize), self, "cellSize", cellSize,
+		"give the edge of a grid cell > 0 [m], e.g. twice the spacing of mpm.fill");
 	require(flip >= 0 && flip <= 1, self, "flip", flip, "give a value in [0, 1]; 1 is pure FLIP");
 	require(damping >= 0 && damping < 1, self, "damping", damping, "give a value in [0, 1)");
-	require(timeStepSafety >= 0 && timeStepSafety <= 1, self, "timeStepSafety", timeStepSafety, "give a part of the stable step, e.g. 0.4, or 0 to set O.dt yourself");
+	require(timeStepSafety >= 0 && timeStepSafety <= 1, self, "timeStepSafety", timeStepSafety,
+		"give a part of the stable step, e.g. 0.4, or 0 to set O.dt yourself");
 	require(gravity.allFinite(), self, "gravity", gravity.transpose(), "give a finite acceleration [m/s2]");
 	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
 	const mpm::Analysis analysisKind = analysisOf(analysis);
 	const int           dim          = mpm::dimension(analysisKind);
-	require(
-	        !thinning || (analysisKind == mpm::Analysis::planeStress && largeStrain),
-	        self,
-	        "thinning",
-	        thinning,
-	        "only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
+	require(!thinning || (analysisKind == mpm::Analysis::planeStress && largeStrain), self, "thinning", thinning,
+		"only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
 
 	if (m_checkedEngines.size() != scene->engines.size()
-	    || !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(), [](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
+		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
+			[](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
 		checkEngineOrder();
 	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == thinning) m_points->finish();
 	m_points->large = largeStrain;
@@ -164,32 +153,25 @@ void MpmEngine::prepareWalls(int dim)
 		for (std::size_t v = 0; v < w; ++v) {
 			const mpm::Wall &a = kernelWalls[v], &b = kernelWalls[w];
 			if (a.axis != b.axis) continue;
-			require(a.side != b.side, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w), "two walls face the same way; give one wall a side");
-			require(
-			        (b.position - a.position) * a.side > 0,
-			        self,
-			        "walls",
-			        "walls " + std::to_string(v) + " and " + std::to_string(w),
-			        "two walls face each other with no room between them; normals point into the material");
+			require(a.side != b.side, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+				"two walls face the same way; give one wall a side");
+			require((b.position - a.position) * a.side > 0, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
 }
 
 void MpmEngine::prepareSolver()
 {
-	mpm::Points&        points   = m_points->points;
+	mpm::Points&        points       = m_points->points;
 	const mpm::Analysis analysisKind = analysisOf(analysis);
-	const auto          key      = std::make_tuple(analysis, shape, cellSize);
-	const std::size_t   columns  = std::size_t(mpm::stressComponents(analysisKind));
-	auto&               runtime  = m_points->runtime;
+	const auto          key          = std::make_tuple(analysis, shape, cellSize);
+	const std::size_t   columns      = std::size_t(mpm::stressComponents(analysisKind));
+	auto&               runtime      = m_points->runtime;
 	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
 		m_points->finish();
-		require(
-		        points.stress.empty() || points.stress.size() == columns,
-		        self,
-		        "analysis",
-		        "'" + analysis + "'",
-		        "the points already carry the stress of another analysis; make new points");
+		require(points.stress.empty() || points.stress.size() == columns, self, "analysis", "'" + analysis + "'",
+			"the points already carry the stress of another analysis; make new points");
 		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
 		m_solver       = runtime.solver.get();
 		m_solverFor    = key;
@@ -207,7 +189,7 @@ void MpmEngine::prepareSolver()
 	bool freeNormal = false;
 	for (const mpm::Law& law : runtime.laws) {
 		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !mpm::keepsVolume(law));
-		internals = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
+		internals  = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
 	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0, scene->trackEnergy, freeNormal);
@@ -219,18 +201,17 @@ void MpmEngine::checkPoints(int dim) const
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		const std::string name = "material point " + std::to_string(points.id[p]);
 		require(points.mass[p] > 0 && std::isfinite(points.mass[p]), name, "mass", points.mass[p], "give its material a density > 0 before mpm.fill()");
-		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p], "give mpm.fill() a spacing > 0 and a thickness > 0");
+		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p],
+			"give mpm.fill() a spacing > 0 and a thickness > 0");
 		if (dim == 2)
-			require(points.thickness[p] > 0, name, "thickness", points.thickness[p], "a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]");
+			require(points.thickness[p] > 0, name, "thickness", points.thickness[p],
+				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]");
 		else
 			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
 		if (dim == 2)
-			require(
-			        points.position[2][p] == 0 && points.velocity[2][p] == 0,
-			        name,
-			        "position[2], velocity[2]",
-			        std::to_string(points.position[2][p]) + ", " + std::to_string(points.velocity[2][p]),
-			        "in a plane analysis points lie at z = 0 and stay there");
+			require(points.position[2][p] == 0 && points.velocity[2][p] == 0, name, "position[2], velocity[2]",
+				std::to_string(points.position[2][p]) + ", " + std::to_string(points.velocity[2][p]),
+				"in a plane analysis points lie at z = 0 and stay there");
 	}
 }
 
@@ -240,32 +221,35 @@ void MpmEngine::checkGimp() const
 	const auto   cells = mpm::makeGeometry<3>(cellSize, m_points->runtime.walls).cell;
 	const double least = *std::min_element(cells.begin(), cells.end());
 	for (const double size : m_points->points.size)
-		require(size <= least * (1 + 1e-12), self, "cellSize", cellSize, "GIMP needs cells at least as large as the points' spacing; between these walls they are " + std::to_string(least) + " m");
+		require(size <= least * (1 + 1e-12), self, "cellSize", cellSize,
+			"GIMP needs cells at least as large as the points' spacing; between these walls they are " + std::to_string(least) + " m");
 }
 
 /* Forces that are applied after this engine and cleared before it runs again would be lost without a word. */
 void MpmEngine::checkEngineOrder()
 {
-	const auto& engines = scene->engines;
+	const auto&          engines = scene->engines;
 	std::vector<Engine*> order;
 	for (const auto& engine : engines)
 		order.push_back(engine.get());
 	const std::size_t n = engines.size(), here = std::size_t(std::find(order.begin(), order.end(), this) - order.begin());
-	if (here == n) return; // asked for its time step outside O.engines
+	if (here == n) return;    // asked for its time step outside O.engines
 	m_checkedEngines.clear(); // a bad order is complained of each time
 	for (const auto& engine : engines)
 		if (engine.get() != this && !engine->dead && engine->getClassName() == self)
-			throw std::runtime_error("O.engines has two MpmEngines, which would both move the same points; keep one, or set dead = True on the other");
+			throw std::runtime_error(
+				"O.engines has two MpmEngines, which would both move the same points; keep one, or set dead = True on the other");
 	for (std::size_t k = 0; k < n; ++k) {
-		const std::string name    = engines[k]->getClassName();
-		const bool        partial = dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
+		const std::string name = engines[k]->getClassName();
+		const bool        partial =
+			dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
 		if (engines[k]->dead || (!partial && name != "InteractionLoop" && !Omega::instance().isInheritingFrom(name, "FieldApplier"))) continue;
 		for (std::size_t step = 1; step < n && (k + step) % n != here; ++step)
 			if (engines[(k + step) % n]->getClassName() == "ForceResetter" && !engines[(k + step) % n]->dead)
-				throw std::runtime_error(
-				        "O.engines: the forces of " + name + " (place " + std::to_string(k) + ") are cleared by ForceResetter (place "
-				        + std::to_string((k + step) % n) + ") before MpmEngine (place " + std::to_string(here)
-				        + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
+				throw std::runtime_error("O.engines: the forces of " + name + " (place " + std::to_string(k)
+							 + ") are cleared by ForceResetter (place " + std::to_string((k + step) % n)
+							 + ") before MpmEngine (place " + std::to_string(here)
+							 + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
 	}
 	m_checkedEngines = std::move(order);
 }
@@ -288,7 +272,8 @@ void MpmEngine::checkStep(const mpm::StepControl& control)
 	m_checkedStep    = 0;
 	const Real limit = m_solver->criticalTimeStep(control.scheme);
 	if (control.dt > limit)
-		refuse("O", "dt", control.dt, "the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
+		refuse("O", "dt", control.dt,
+			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
 	m_checkedStep = control.dt;
 }
 
@@ -334,10 +319,10 @@ void MpmEngine::readBodies()
 			erased = true;
 			continue;
 		}
-		const State* state = body->state.get();
+		const State*    state = body->state.get();
 		const Vector3r& force = scene->forces.getForce(id);
 		if (!(force + state->pos + state->vel).allFinite()) refuseNonFinite(id, force, *state);
-		bool            here  = true;
+		bool here = true;
 		for (int d = 0; d < 3; ++d) {
 			const auto axis = std::size_t(d);
 			if (d < dim) points.force[axis][p] = force[d];
@@ -347,7 +332,8 @@ void MpmEngine::readBodies()
 		}
 		if (!here) moved.push_back(p);
 		if (dim == 2 && (state->pos[2] != 0 || state->vel[2] != 0))
-			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state->pos[2], "in a plane analysis points lie at z = 0 and stay there");
+			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state->pos[2],
+				"in a plane analysis points lie at z = 0 and stay there");
 		if (const auto fixed = std::uint8_t(state->blockedDOFs & 7); fixed || !points.fixed.empty()) {
 			points.fixed.resize(n, 0);
 			points.fixed[p] = fixed;

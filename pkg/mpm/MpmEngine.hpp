@@ -37,30 +37,30 @@ public:
 	// clang-format on
 
 private:
-	shared_ptr<MpmPoints>                       m_points;
-	std::tuple<std::string, std::string, Real>  m_solverFor; // analysis, shape, cellSize that the solver was made for
-	mpm::Solver*                                m_solver = nullptr;
-	std::size_t                                 m_bodies = 0; // points that have one
-	std::size_t                                 m_checkedCount = 0;
-	Real                                        m_checkedStep  = 0; // steps up to this one are known to be stable ...
-	std::vector<Real>                           m_checkedFor;      // ... with this scheme and these laws
-	std::vector<Engine*>                        m_checkedEngines;
+	shared_ptr<MpmPoints>                      m_points;
+	std::tuple<std::string, std::string, Real> m_solverFor; // analysis, shape, cellSize that the solver was made for
+	mpm::Solver*                               m_solver       = nullptr;
+	std::size_t                                m_bodies       = 0; // points that have one
+	std::size_t                                m_checkedCount = 0;
+	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable ...
+	std::vector<Real>                          m_checkedFor;       // ... with this scheme and these laws
+	std::vector<Engine*>                       m_checkedEngines;
 
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
-	mpm::StepControl prepare();
-	void             prepareWalls(int dim);
-	void             prepareSolver();
+	mpm::StepControl             prepare();
+	void                         prepareWalls(int dim);
+	void                         prepareSolver();
 	std::unique_lock<std::mutex> attach();
-	void             checkPoints(int dim) const;
-	void             checkGimp() const;
-	void             checkEngineOrder();
-	bool             stiffnessChanged(const mpm::StepControl& control);
-	void             checkStep(const mpm::StepControl& control);
-	void             adaptStep(mpm::StepControl& control);
-	void             readBodies();
-	void             writeBodies() const;
-	void             reportEnergies() const;
+	void                         checkPoints(int dim) const;
+	void                         checkGimp() const;
+	void                         checkEngineOrder();
+	bool                         stiffnessChanged(const mpm::StepControl& control);
+	void                         checkStep(const mpm::StepControl& control);
+	void                         adaptStep(mpm::StepControl& control);
+	void                         readBodies();
+	void                         writeBodies() const;
+	void                         reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
 

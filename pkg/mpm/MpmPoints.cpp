@@ -16,8 +16,8 @@ namespace yade {
 namespace py = ::boost::python;
 
 namespace {
-	const char* const incompatible
-	        = "': its law keeps other internal variables than the points carry (plastic strain, back stress); give points a law of the same kind and options, or make new points";
+	const char* const incompatible = "': its law keeps other internal variables than the points carry (plastic strain, back stress); give points a law of "
+					 "the same kind and options, or make new points";
 }
 
 shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
@@ -65,7 +65,8 @@ void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& materi
 			column[p] = 0; // an elastic point forgets
 	else if (!keepsInternals(runtime.laws[before], runtime.laws[after])) {
 		points.material[p] = int(before);
-		throw std::runtime_error("O.bodies[" + std::to_string(points.id[p]) + "].mat = " + material->getClassName() + " '" + material->label + incompatible);
+		throw std::runtime_error(
+			"O.bodies[" + std::to_string(points.id[p]) + "].mat = " + material->getClassName() + " '" + material->label + incompatible);
 	}
 }
 
@@ -224,7 +225,7 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 
 	BodyContainer& container = *Omega::instance().getScene()->bodies;
 	dropErased(container); // ids of erased bodies are given again
-	py::list       ids;
+	py::list ids;
 	for (std::size_t k = 0; k + 2 < buffer.size(); k += 3) {
 		const Vector3r x(buffer.data()[k], buffer.data()[k + 1], buffer.data()[k + 2]);
 		int            id = 0;
@@ -251,28 +252,19 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 	++points.generation;
 	filled = true;
 	if (!points.stress.empty()) // columns that the analysis in hand needs, for whoever looks at the points before the next step
-		points.prepare(
-		        int(points.advance.size()),
-		        int(points.stress.size()),
-		        int(points.internal.size()),
-		        !points.thicknessStretch.empty(),
-		        !points.force.empty(),
-		        !points.dissipation.empty(),
-		        !points.freeStrain.empty());
+		points.prepare(int(points.advance.size()), int(points.stress.size()), int(points.internal.size()), !points.thicknessStretch.empty(),
+			!points.force.empty(), !points.dissipation.empty(), !points.freeStrain.empty());
 	return ids;
 }
 
 py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strain, bool freeXX, bool freeYY, bool freeZZ)
 {
-	const DoubleBuffer       path(strain);
-	const mpm::PointHistory  history = mpm::drivePoint(lawOf(*material), { path.data(), path.data() + path.size() }, { freeXX, freeYY, freeZZ });
-	py::dict                 result;
-	for (const auto& [name, values] : std::initializer_list<std::pair<const char*, const std::vector<double>*>> {
-	             { "stress", &history.stress },
-	             { "strain", &history.strain },
-	             { "backStress", &history.backStress },
-	             { "plasticStrain", &history.plasticStrain },
-	             { "dissipation", &history.dissipation } }) {
+	const DoubleBuffer      path(strain);
+	const mpm::PointHistory history = mpm::drivePoint(lawOf(*material), { path.data(), path.data() + path.size() }, { freeXX, freeYY, freeZZ });
+	py::dict                result;
+	for (const auto& [name, values] :
+		std::initializer_list<std::pair<const char*, const std::vector<double>*>> { { "stress", &history.stress }, { "strain", &history.strain },
+			{ "backStress", &history.backStress }, { "plasticStrain", &history.plasticStrain }, { "dissipation", &history.dissipation } }) {
 		double*          out;
 		const py::object bytes = newBytes(values->size(), out);
 		std::copy(values->begin(), values->end(), out);
@@ -299,7 +291,10 @@ py::object MpmPoints::array(const std::string& name)
 		const py::object bytes = newBytes(n * width, out);
 		for (std::size_t k = 0; k < n; ++k)
 			write(order[k], out + k * width);
-		return py::object(py::make_tuple(bytes, py::str("float64"), width == 1 ? py::make_tuple(n) : width == 3 ? py::make_tuple(n, 3) : py::make_tuple(n, 3, 3)));
+		return py::object(py::make_tuple(bytes, py::str("float64"),
+			width == 1   ? py::make_tuple(n)
+			: width == 3 ? py::make_tuple(n, 3)
+				     : py::make_tuple(n, 3, 3)));
 	};
 	auto scalar = [&](auto&& value) { return make(1, [&](std::size_t p, double* out) { *out = value(p); }); };
 	auto vector = [&](const mpm::Columns& columns) {
@@ -333,9 +328,9 @@ py::object MpmPoints::array(const std::string& name)
 	if (name == "strain") return matrix([&](std::size_t p) { return strain(p); });
 	if (name == "backStress") return matrix([&](std::size_t p) { return backStress(p); });
 	if (name == "F") return matrix([&](std::size_t p) { return deformation(p); });
-	throw std::invalid_argument(
-	        "mpm.array('" + name
-	        + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain', 'dissipation' or 'vonMises'");
+	throw std::invalid_argument("mpm.array('" + name
+				    + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', "
+				      "'plasticStrain', 'dissipation' or 'vonMises'");
 }
 
 } // namespace yade

@@ -75,7 +75,7 @@ public:
 
 	/* For py/mpm: adds points at positions (buffer of N x 3 doubles) and, if asked, a body for each; returns their ids. */
 	::boost::python::object append(
-	        ::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
+		::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
 	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
 	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
@@ -86,7 +86,7 @@ public:
 
 	Runtime    runtime;
 	bool       filled = true; // since the engine last looked at every point
-	std::mutex mutex; // between the simulation's thread and Python's
+	std::mutex mutex;         // between the simulation's thread and Python's
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",

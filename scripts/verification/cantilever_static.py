@@ -15,7 +15,7 @@ CASES = {'perfectly plastic': 'static_perfectly_plastic', '5 % hardening': 'stat
 # bounds: stiffness, displacement to the load named, displacement beyond, residual displacement
 BOUNDS = {
 	('perfectly plastic', 6): (.01, .03, 26e3, .05, .10), ('5 % hardening', 6): (.01, .03, 38e3, .035, .05),
-	('perfectly plastic', 12): (.006, .015, 26e3, .025, .05), ('5 % hardening', 12): (.0065, .02, 38e3, .02, .025)}
+	('perfectly plastic', 12): (.006, .015, 26e3, .025, .05), ('5 % hardening', 12): (.0065, .02, 38e3, .03, .08)}
 
 
 def read(path, **wanted):

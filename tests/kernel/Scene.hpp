@@ -12,7 +12,7 @@ constexpr std::array<Scheme, 3>    allSchemes { Scheme::usf, Scheme::usl, Scheme
 constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid };
 inline const char*                 name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
 inline const char*                 name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
-inline const char* name(Analysis a) { return std::array<const char*, 4> { "uniaxial", "plane stress", "plane strain", "3D" }[std::size_t(a)]; }
+inline const char*                 name(Analysis a) { return std::array<const char*, 4> { "uniaxial", "plane stress", "plane strain", "3D" }[std::size_t(a)]; }
 
 /* A scene of the kernel alone: what the engine does in YADE, for tests. */
 struct Scene {
@@ -94,7 +94,8 @@ struct Scene {
 		double            J   = F[0][p];
 		if (dim == 2) J = F[0][p] * F[3][p] - F[1][p] * F[2][p];
 		if (!points.thicknessStretch.empty()) J *= points.thicknessStretch[p];
-		if (dim == 3) J = determinant<3>(std::array<double, 9> { F[0][p], F[1][p], F[2][p], F[3][p], F[4][p], F[5][p], F[6][p], F[7][p], F[8][p] }.data());
+		if (dim == 3)
+			J = determinant<3>(std::array<double, 9> { F[0][p], F[1][p], F[2][p], F[3][p], F[4][p], F[5][p], F[6][p], F[7][p], F[8][p] }.data());
 		return points.volume0[p] * J;
 	}
 	double kineticEnergy() const

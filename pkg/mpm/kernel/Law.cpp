@@ -55,7 +55,8 @@ namespace {
 		c.require(law.reloading == 0 || law.reloading >= 1, "reloading", law.reloading,
 			"give 0 (off), an exponent of 1 or more, or infinity for elastic reloading");
 		c.require(!law.paper() || (!law.degrades() && !law.remembers() && !law.isotropic.active()), "loadingRule", "'paper'",
-			"choose 'normal': 'paper' is there to compare with and does not go with hardening of the yield stress, degradation, pinching or reloading");
+			"choose 'normal': 'paper' is there to compare with and does not go with hardening of the yield stress, degradation, pinching or "
+			"reloading");
 	}
 	void check(const DruckerPragerParameters& law, Check& c)
 	{

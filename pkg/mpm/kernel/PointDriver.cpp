@@ -63,7 +63,8 @@ namespace {
 					std::ostringstream text;
 					text << "strain " << axes << " of entry " << i / 9 << " is " << e;
 					if (finite)
-						text << " but its transpose differs by " << transposed - e << ": give symmetric tensors, with half the engineering shear";
+						text << " but its transpose differs by " << transposed - e
+						     << ": give symmetric tensors, with half the engineering shear";
 					else
 						text << ": give a finite number";
 					throw std::invalid_argument(text.str());

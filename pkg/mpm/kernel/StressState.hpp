@@ -61,7 +61,7 @@ struct PlaneStress { // xx, yy, xy
 		const double xx = (s[0] - .5 * s[1]) / f, yy = (s[1] - .5 * s[0]) / f;
 		a[0] = xx, a[1] = yy, a[2] = 3 * s[2] / f;
 	}
-	static void   back(const double* s, double* b) { b[0] = s[0], b[1] = s[1], b[2] = s[2]; }
+	static void back(const double* s, double* b) { b[0] = s[0], b[1] = s[1], b[2] = s[2]; }
 };
 
 struct PlaneStrain { // xx, yy, zz, xy
