@@ -12,10 +12,10 @@ from report import DATA, FIGURES, ROOT, Report
 import numpy as np
 
 CASES = {'perfectly plastic': 'static_perfectly_plastic', '5 % hardening': 'static_hardening'}
-# bounds: stiffness, displacement to the load named, displacement beyond, residual displacement
+# what is asked for: stiffness, displacement to the load named, displacement beyond, residual displacement; half with 1440 points
 BOUNDS = {
-	('perfectly plastic', 6): (.01, .03, 26e3, .05, .10), ('5 % hardening', 6): (.01, .03, 38e3, .035, .05),
-	('perfectly plastic', 12): (.006, .015, 26e3, .025, .05), ('5 % hardening', 12): (.0065, .02, 38e3, .03, .08)}
+	('perfectly plastic', 6): (.01, .03, 26e3, .05, .10), ('5 % hardening', 6): (.01, .03, 40e3, .03, .05),
+	('perfectly plastic', 12): (.005, .015, 26e3, .025, .05), ('5 % hardening', 12): (.005, .015, 40e3, .015, .025)}
 
 
 def read(path, **wanted):
