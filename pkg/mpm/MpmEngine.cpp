@@ -10,6 +10,7 @@
 #include <core/ForceContainer.hpp>
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
+#include <core/TimeStepper.hpp>
 #include <omp.h>
 #include <thread>
 
@@ -64,7 +65,8 @@ void MpmEngine::step()
 	mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
 	readBodies();
-	timeStepSafety > 0 ? adaptStep(control) : checkStep(control);
+	const bool stepper = checkClocks();
+	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	m_solver->step(control);
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
@@ -254,6 +256,41 @@ void MpmEngine::checkEngineOrder()
 	m_checkedEngines = std::move(order);
 }
 
+/* Whether a TimeStepper sets O.dt as well. MpmEngine and NewtonIntegrator must move grains and points by the same step: else
+what a contact gives the one is not what it takes from the other. */
+bool MpmEngine::checkClocks() const
+{
+	const auto& engines = scene->engines;
+	long        here = -1, stepper = -1, newton = -1, loop = -1;
+	for (long k = 0; k < long(engines.size()); ++k) {
+		const Engine* engine = engines[std::size_t(k)].get();
+		if (engine->dead) continue;
+		if (engine == this)
+			here = k;
+		else if (const auto* clock = dynamic_cast<const TimeStepper*>(engine))
+			stepper = clock->active ? k : stepper;
+		else if (const std::string name = engine->getClassName(); name == "NewtonIntegrator")
+			newton = k;
+		else if (name == "InteractionLoop")
+			loop = k;
+	}
+	if (here < 0) return false;
+	const auto between = [](long a, long b, long c) { return a >= 0 && c >= 0 && (b - a) * (b - c) < 0; };
+	if (timeStepSafety > 0 && newton >= 0 && newton < here)
+		throw std::runtime_error("O.engines: MpmEngine (place " + std::to_string(here) + ") sets O.dt (timeStepSafety), which NewtonIntegrator (place "
+					 + std::to_string(newton) + ") has used before; put MpmEngine before NewtonIntegrator");
+	if (stepper < 0) return false;
+	const std::string name = engines[std::size_t(stepper)]->getClassName() + " (place " + std::to_string(stepper) + ")";
+	if (between(here, stepper, newton))
+		throw std::runtime_error("O.engines: " + name + " changes O.dt between MpmEngine (place " + std::to_string(here)
+					 + ") and NewtonIntegrator (place " + std::to_string(newton) + "), which must take the same step; put it before both");
+	if (timeStepSafety > 0 && (stepper > here || between(stepper, loop, here)))
+		throw std::runtime_error("O.engines: contacts (InteractionLoop) would see the O.dt of " + name + ", which MpmEngine (place "
+					 + std::to_string(here) + ", timeStepSafety) shortens only later; put them in the order InteractionLoop, "
+					 + engines[std::size_t(stepper)]->getClassName() + ", MpmEngine, NewtonIntegrator");
+	return true;
+}
+
 /* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
@@ -265,7 +302,7 @@ bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 	return true;
 }
 
-void MpmEngine::checkStep(const mpm::StepControl& control)
+void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 {
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
 	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
@@ -273,17 +310,21 @@ void MpmEngine::checkStep(const mpm::StepControl& control)
 	const Real limit = m_solver->criticalTimeStep(control.scheme);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
-			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; set O.dt = .4*mpm.criticalTimeStep()");
+			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; "
+				+ (stepper ? "O.engines has a TimeStepper, which knows of contacts only; set MpmEngine.timeStepSafety = .4 to have the lesser "
+					     "of both"
+					   : "set O.dt = .4*mpm.criticalTimeStep()"));
 	m_checkedStep = control.dt;
 }
 
 /* O.dt for this step. The eigenvalue is worth many steps and changes slowly; velocities are followed at every step. */
-void MpmEngine::adaptStep(mpm::StepControl& control)
+void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
 	const bool     loaded   = m_checkedFor.empty() && acousticLimit > 0; // a scene goes on with what it was saved with
 	if (((stiffnessChanged(control) && !loaded) || scene->iter % interval == 0)) acousticLimit = m_solver->acousticTimeStep(control.scheme);
-	scene->dt = control.dt = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
+	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
+	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ public:
 		((Real, damping, 0, , "Cundall's non-viscous damping, in [0, 1) [-], meaning as in NewtonIntegrator, on the nodes: a component of a nodal acceleration is scaled by 1 - damping where it speeds the motion up and by 1 + damping where it slows it down."))
 		((bool, largeStrain, true, , "True: stress and back stress turn with the material (Hughes & Winget 1980), volumes are current. False: linear kinematics, initial volumes."))
 		((bool, thinning, false, , "Plane stress in large strain: whether the thickness follows the strain normal to the plane (True) or is kept (False)."))
-		((Real, timeStepSafety, 0, , "Where > 0, the engine sets O.dt before each step [-]: this part of the stable step, which follows the points' velocities at every step and the stiffness, density and place of the points every 500 steps. 0 leaves O.dt to the script. 0.4 suits most scenes."))
+		((Real, timeStepSafety, 0, , "Where > 0, the engine sets O.dt before each step [-]: this part of the stable step, which follows the points' velocities at every step and the stiffness, density and place of the points every 500 steps. Beside an active TimeStepper (GlobalStiffnessTimeStepper) O.dt is the lesser of the two; the order is TimeStepper, MpmEngine, NewtonIntegrator. 0 leaves O.dt to the script. 0.4 suits most scenes."))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
 		,/*ctor*/,
@@ -55,9 +55,10 @@ private:
 	void                         checkPoints(int dim) const;
 	void                         checkGimp() const;
 	void                         checkEngineOrder();
+	bool                         checkClocks() const;
 	bool                         stiffnessChanged(const mpm::StepControl& control);
-	void                         checkStep(const mpm::StepControl& control);
-	void                         adaptStep(mpm::StepControl& control);
+	void                         checkStep(const mpm::StepControl& control, bool stepper);
+	void                         adaptStep(mpm::StepControl& control, bool stepper);
 	void                         readBodies();
 	void                         writeBodies() const;
 	void                         reportEnergies() const;

@@ -61,6 +61,7 @@ public:
 		if (control.scheme == Scheme::musl) {
 			forEachTile([&](std::size_t t) { gridToPoints<true>(t); });
 			remapVelocities();
+			if (!m_points.force.empty()) forEachTile([&](std::size_t t) { moveLoadedPoints(t); });
 		} else {
 			forEachTile([&](std::size_t t) { gridToPoints<false>(t); });
 			std::swap(m_velocity, m_momentum); // the updated velocities themselves
@@ -612,6 +613,36 @@ private:
 		m_band.foldMomentum(m_walls, m_mass, m_velocity);
 		divideByMass(m_mass, m_velocity);
 		m_band.unfold(m_walls, m_velocity, true);
+	}
+	/* Points under an external force move with the velocities that the stress sees. A contact's force follows the points'
+	positions; moved by the velocities before the transfer back it would lose energy at first order in dt (doc/method.md). */
+	void moveLoadedPoints(std::size_t t)
+	{
+		const Tile& tile = m_grid.tiles()[t];
+		for (std::size_t p = tile.begin; p < tile.end; ++p) {
+			bool loaded = false;
+			for (int d = 0; d < dim; ++d)
+				loaded |= m_points.force[d][p] != 0;
+			if (!loaded) continue;
+			double v[dim] {};
+			gatherVelocity(tile, weights(tile, p), v);
+			for (int d = 0; d < dim; ++d) {
+				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1) continue;
+				m_points.advance[d][p] = m_control.dt * v[d];
+				const double xi        = m_geometry.xi(d, m_points.position[d][p] + m_points.advance[d][p]);
+				const double inTile    = xi - Shape::shift(halfSize(d, p)) - tile.index[d] * Grid::width;
+				m_reports[t].left |= !(inTile >= 0 && inTile < Grid::width && xi >= m_geometry.xiMin[d] && xi <= m_geometry.xiMax[d]);
+			}
+		}
+	}
+	/* sum N_ip v_i of the mapped velocities, without a patch: few points ask. */
+	void gatherVelocity(const Tile& tile, const Weights& w, double (&v)[dim]) const
+	{
+		Patch patch;
+		for (int d = 0; d < dim; ++d) {
+			read(tile, m_velocity[d], patch);
+			v[d] = gather<-1>(w, patch);
+		}
 	}
 	void divideByMass(const Column& mass, NodeVector<dim>& field) const
 	{
