@@ -127,4 +127,17 @@ for what, plate in (('wall', lambda: wall(0, axis=2, material='grain')), ('box',
 		if part < 1: check('%s: a block at %g of the friction angle stays' % (what, part), abs(v) < 1e-4*g*O.time, v)
 		else: near('%s: a block beyond it slides as Coulomb says' % what, acceleration/free, 1, .05)
 
+# ---- a sphere on points must climb out of the dimple between four of them ----------------------------------------------
+climb = math.asin(.0625/.2625) # half the spacing over the distance of centres: slope towards the saddle between two points
+moved = []
+for slope in .5 + climb - .05, .5 + climb + .05:
+	pull = (g*math.sin(slope), 0, -g*math.cos(slope))
+	ids, engine = scene(walls=[MpmWall(normal=(0, 0, 1))])
+	engine.damping, O.engines[3].damping, O.engines[3].gravity = .3, .3, pull
+	ball = grain((.5, .5, .4375 + math.sqrt(.2625**2 - 2*.0625**2)))
+	ball.state.blockedDOFs = 'XYZ'
+	O.run(700, True)
+	moved.append(ball.state.displ()[0])
+check('a sphere that cannot turn leaves a dimple where friction angle and slope say', moved[0] < 3e-3 and moved[1] > .05, moved)
+
 finish()
