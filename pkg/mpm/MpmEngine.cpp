@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmEngine.hpp"
+#include "Action.hpp"
 #include "BadInput.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
-#include <chrono>
 #include <core/BodyContainer.hpp>
 #include <core/Bound.hpp>
 #include <core/EnergyTracker.hpp>
@@ -12,7 +12,6 @@
 #include <core/PartialEngine.hpp>
 #include <core/TimeStepper.hpp>
 #include <omp.h>
-#include <thread>
 
 namespace yade {
 
@@ -50,13 +49,7 @@ namespace {
 
 void MpmEngine::action()
 {
-	try {
-		step();
-	} catch (const std::exception&) {
-		// YADE loses the exception of a loop that ends before O.run(n, True) has begun to wait for it
-		std::this_thread::sleep_for(std::chrono::milliseconds(50));
-		throw;
-	}
+	act([this] { step(); });
 }
 
 void MpmEngine::step()

@@ -124,18 +124,36 @@ void MpmPoints::preSave(MpmPoints&)
 	}
 }
 
+const MpmPoints::Directory& MpmPoints::directory()
+{
+	Directory& d = m_directory;
+	if (d.generation == points.generation && d.order.size() == points.count()) return d;
+	d.bodies.clear(), d.loose.clear(), d.order.clear();
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		const int         id    = points.id[p];
+		auto&             place = id >= 0 ? d.bodies : d.loose;
+		const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
+		if (place.size() <= at) place.resize(std::max(at + 1, 2 * place.size()), nowhere);
+		place[at] = p;
+	}
+	d.order.reserve(points.count());
+	for (const auto* places : { &d.bodies, &d.loose })
+		for (const std::size_t p : *places)
+			if (p != nowhere) d.order.push_back(p);
+	d.generation = points.generation;
+	return d;
+}
+
 std::size_t MpmPoints::indexOf(int id)
 {
-	if (m_indexed != points.generation || m_indices.size() != points.count()) {
-		m_indices.clear();
-		for (std::size_t p = 0; p < points.count(); ++p)
-			m_indices[points.id[p]] = p;
-		m_indexed = points.generation;
-	}
-	const auto found = m_indices.find(id);
-	if (found == m_indices.end()) throw std::runtime_error("there is no material point " + std::to_string(id) + " (any more)");
-	return found->second;
+	const Directory&  d     = directory();
+	const auto&       place = id >= 0 ? d.bodies : d.loose;
+	const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
+	if (at >= place.size() || place[at] == nowhere) throw std::runtime_error("there is no material point " + std::to_string(id) + " (any more)");
+	return place[at];
 }
+
+const std::vector<std::size_t>& MpmPoints::inOrder() { return directory().order; }
 
 // ---- one point ----------------------------------------------------------------------------------------------------------
 
@@ -277,60 +295,65 @@ py::object MpmPoints::array(const std::string& name)
 {
 	const std::lock_guard<std::mutex> lock(mutex);
 	finish();
-	const std::size_t n = points.count();
-
-	// bodies by id, then points without a body: the order they were made in
-	std::vector<std::size_t> order(n);
-	for (std::size_t p = 0; p < n; ++p)
-		order[p] = p;
-	auto rank = [&](std::size_t p) { return points.id[p] >= 0 ? long(points.id[p]) : (1L << 40) - points.id[p]; };
-	std::sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return rank(p) < rank(q); });
-
-	auto make = [&](std::size_t width, auto&& write) {
-		double*          out;
-		const py::object bytes = newBytes(n * width, out);
-		for (std::size_t k = 0; k < n; ++k)
-			write(order[k], out + k * width);
-		return py::object(py::make_tuple(bytes, py::str("float64"),
-			width == 1   ? py::make_tuple(n)
-			: width == 3 ? py::make_tuple(n, 3)
-				     : py::make_tuple(n, 3, 3)));
-	};
-	auto scalar = [&](auto&& value) { return make(1, [&](std::size_t p, double* out) { *out = value(p); }); };
-	auto vector = [&](const mpm::Columns& columns) {
-		return make(3, [&](std::size_t p, double* out) {
-			for (std::size_t d = 0; d < 3; ++d)
-				out[d] = columns[d][p];
-		});
-	};
-	auto matrix = [&](auto&& value) {
-		return make(9, [&](std::size_t p, double* out) {
-			const Matrix3r T = value(p);
-			for (int k = 0; k < 9; ++k)
-				out[k] = T(k / 3, k % 3);
-		});
-	};
-	if (name == "id") {
+	const std::vector<std::size_t>& order = inOrder();
+	const std::size_t               n     = order.size();
+	if (name == "id" || name == "material") {
 		std::int64_t*    out;
 		const py::object bytes = newBytes(n, out);
 		for (std::size_t k = 0; k < n; ++k)
-			out[k] = points.id[order[k]];
+			out[k] = name == "id" ? points.id[order[k]] : materials[std::size_t(points.material[order[k]])]->id;
 		return py::make_tuple(bytes, "int64", py::make_tuple(n));
 	}
+	const Quantity quantity = this->quantity(name);
+	const auto     width    = std::size_t(quantity.components);
+	if (width == 0)
+		throw std::invalid_argument(
+			"mpm.array('" + name
+			+ "'): no such quantity; choose 'id', 'material', 'position', 'displacement', 'velocity', 'mass', 'volume', 'stress', "
+			  "'strain', 'backStress', 'F', 'plasticStrain', 'dissipation' or 'vonMises'");
+	double*          out;
+	const py::object bytes = newBytes(n * width, out);
+	for (std::size_t k = 0; k < n; ++k)
+		quantity.read(order[k], out + k * width);
+	return py::make_tuple(bytes, "float64", width == 1 ? py::make_tuple(n) : width == 3 ? py::make_tuple(n, 3) : py::make_tuple(n, 3, 3));
+}
+
+MpmPoints::Quantity MpmPoints::quantity(const std::string& name) const
+{
+	auto scalar = [](auto&& value) { return Quantity { 1, [=](std::size_t p, Real* out) { *out = value(p); } }; };
+	auto vector = [](const mpm::Columns& columns) {
+		return Quantity { 3, [&columns](std::size_t p, Real* out) {
+					 for (std::size_t d = 0; d < 3; ++d)
+						 out[d] = columns[d][p];
+				 } };
+	};
+	auto matrix = [this](Matrix3r (MpmPoints::*value)(std::size_t) const) {
+		return Quantity { 9, [this, value](std::size_t p, Real* out) {
+					 const Matrix3r T = (this->*value)(p);
+					 for (int k = 0; k < 9; ++k)
+						 out[k] = T(k / 3, k % 3);
+				 } };
+	};
 	if (name == "position") return vector(points.position);
 	if (name == "velocity") return vector(points.velocity);
-	if (name == "mass") return scalar([&](std::size_t p) { return points.mass[p]; });
-	if (name == "volume") return scalar([&](std::size_t p) { return volume(p); });
-	if (name == "plasticStrain") return scalar([&](std::size_t p) { return plasticStrain(p); });
-	if (name == "dissipation") return scalar([&](std::size_t p) { return points.dissipation.empty() ? 0 : points.dissipation[p]; });
-	if (name == "vonMises") return scalar([&](std::size_t p) { return vonMises(p); });
-	if (name == "stress") return matrix([&](std::size_t p) { return stress(p); });
-	if (name == "strain") return matrix([&](std::size_t p) { return strain(p); });
-	if (name == "backStress") return matrix([&](std::size_t p) { return backStress(p); });
-	if (name == "F") return matrix([&](std::size_t p) { return deformation(p); });
-	throw std::invalid_argument("mpm.array('" + name
-				    + "'): no such quantity; choose 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', "
-				      "'plasticStrain', 'dissipation' or 'vonMises'");
+	if (name == "displacement") {
+		const shared_ptr<BodyContainer> bodies = Omega::instance().getScene()->bodies;
+		return { 3, [this, bodies](std::size_t p, Real* out) {
+				const Body* body = bodyOf(p, *bodies);
+				for (int d = 0; d < 3; ++d)
+					out[d] = body ? points.position[std::size_t(d)][p] - body->state->refPos[d] : NaN;
+			} };
+	}
+	if (name == "mass") return scalar([this](std::size_t p) { return points.mass[p]; });
+	if (name == "volume") return scalar([this](std::size_t p) { return volume(p); });
+	if (name == "plasticStrain") return scalar([this](std::size_t p) { return plasticStrain(p); });
+	if (name == "dissipation") return scalar([this](std::size_t p) { return points.dissipation.empty() ? 0 : points.dissipation[p]; });
+	if (name == "vonMises") return scalar([this](std::size_t p) { return vonMises(p); });
+	if (name == "stress") return matrix(&MpmPoints::stress);
+	if (name == "strain") return matrix(&MpmPoints::strain);
+	if (name == "backStress") return matrix(&MpmPoints::backStress);
+	if (name == "F") return matrix(&MpmPoints::deformation);
+	return { 0, {} };
 }
 
 } // namespace yade

@@ -6,10 +6,10 @@
 #include <core/BodyContainer.hpp>
 #include <core/Material.hpp>
 #include <core/Scene.hpp>
+#include <functional>
 #include <lib/serialization/Serializable.hpp>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
 
 namespace boost::serialization {
 template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e, const unsigned int)
@@ -63,6 +63,16 @@ public:
 	void dropErased(const BodyContainer& bodies);
 	/* Index of the point with this id in the arrays as they stand; throws where there is none. */
 	std::size_t indexOf(int id);
+	/* Indices of all points in the order they were made in: bodies by id, then points without a body. */
+	const std::vector<std::size_t>& inOrder();
+
+	/* A quantity of the points: how many numbers, and what they are at a point. */
+	struct Quantity {
+		int                                              components;
+		std::function<void(std::size_t p, Real* values)> read;
+	};
+	/* By its name in mpm.array; empty (no components) where there is none of this name. Good until points change. */
+	Quantity quantity(const std::string& name) const;
 
 	/* State of one point, as Python sees it. */
 	Matrix3r stress(std::size_t p) const;
@@ -103,8 +113,15 @@ public:
 	// clang-format on
 
 private:
-	std::unordered_map<int, std::size_t> m_indices;     // of the order and number of points below
-	std::size_t                          m_indexed = 0; // points.generation that m_indices holds for
+	static constexpr std::size_t nowhere = std::size_t(-1);
+	struct Directory { // of the points as they stand, made when asked for
+		std::size_t              generation = 0;
+		std::vector<std::size_t> bodies, loose; // index of the point with id k, and of that with id -1 - k, or nowhere
+		std::vector<std::size_t> order;
+	};
+	Directory m_directory;
+
+	const Directory& directory();
 
 	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
 	mpm::Internals internals(std::size_t p) const;

@@ -3,8 +3,9 @@
 #include "MpmEngine.hpp"
 #include "MpmPoints.hpp"
 #include "MpmState.hpp"
+#include "MpmVtkRecorder.hpp"
 #include "MpmWall.hpp"
 
 namespace yade {
-YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmEngine));
+YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmEngine)(MpmVtkRecorder));
 } // namespace yade

@@ -67,7 +67,8 @@ def array(name):
 	Points come in the order they were made in, the same for every quantity and at every time: bodies by id, then points
 	without a body.
 
-	:param str name: 'id' (N,), 'position' [m], 'velocity' [m/s] (N,3), 'mass' [kg], 'volume' [m3], 'plasticStrain' [-],
+	:param str name: 'id', 'material' (its index in O.materials) (N,), 'position' [m], 'displacement' (from the place it was
+		filled at, NaN for points without bodies) [m], 'velocity' [m/s] (N,3), 'mass' [kg], 'volume' [m3], 'plasticStrain' [-],
 		'vonMises' [Pa], 'dissipation' (heat per undeformed volume [J/m3], kept while O.trackEnergy) (N,), 'stress',
 		'backStress' [Pa], 'strain', 'F' [-] (N,3,3); see :yref:`MpmState` for their meaning
 	:raises ValueError: if there is no such quantity

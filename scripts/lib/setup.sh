@@ -16,9 +16,11 @@ mpmPackages=(
 	# YADE itself: the program, its Python part, its libraries
 	yade python3-yade libyade
 	# to build the plugin
-	g++ cmake ninja-build libeigen3-dev libboost-python-dev libboost-serialization-dev libpython3.11-dev
+	g++ cmake ninja-build libeigen3-dev libboost-python-dev libboost-serialization-dev libpython3.11-dev libvtk9-dev
 	# tests and micro-benchmarks
-	libgtest-dev libbenchmark-dev
+	libgtest-dev libbenchmark-dev python3-vtk9 xvfb xauth
+	# the manual
+	python3-sphinx python3-myst-parser
 	# the Python face, plots
 	python3-numpy python3-matplotlib
 )

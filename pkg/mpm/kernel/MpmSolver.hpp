@@ -90,6 +90,26 @@ public:
 	Analysis    analysis() const override { return m_analysis; }
 	int         components() const override { return N; }
 
+	GridNodes nodes() const override
+	{
+		GridNodes nodes;
+		for (std::size_t i = 0; i < m_mass.size(); ++i) {
+			if (m_mass[i] <= leastMass()) continue;
+			nodes.mass.push_back(m_mass[i]);
+			int local = int(i % Grid::nodes);
+			for (int d = 0; d < 3; ++d) {
+				double x = 0, v = 0;
+				if (d < dim) {
+					const int index = m_grid.blocks()[i / Grid::nodes][d] * Grid::width + local % Grid::width;
+					x = m_geometry.origin[d] + index * m_geometry.cell[d], v = m_velocity[d][i];
+					local /= Grid::width;
+				}
+				nodes.position[d].push_back(x), nodes.velocity[d].push_back(v);
+			}
+		}
+		return nodes;
+	}
+
 	double acousticTimeStep(Scheme scheme) override;
 	double crossingRate() const override;
 

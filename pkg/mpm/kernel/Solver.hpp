@@ -38,6 +38,12 @@ public:
 	const int id;
 };
 
+/* Nodes of the grid that carry mass, for whoever wants to look at them. */
+struct GridNodes {
+	Columns position { 3 }, velocity { 3 };
+	Column  mass;
+};
+
 /* Explicit material point method on the points of one scene: momentum on the grid, stress at the points.
 
 The stress update of a step shares a pass over the points with the transfer that begins the next one; finish() carries
@@ -57,6 +63,8 @@ public:
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
 	double criticalTimeStep(Scheme scheme) { return 1 / (1 / acousticTimeStep(scheme) + crossingRate()); }
+	/* The nodes of the last step, with the velocities that it ended with. */
+	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */
 	virtual std::size_t gridBytes() const = 0;
 
