@@ -17,5 +17,6 @@ if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
 from .driver import PointHistory, drive
 from .points import array, criticalTimeStep, fill
+from .view import color
 
-__all__ = ['PointHistory', 'array', 'criticalTimeStep', 'drive', 'fill']
+__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill']
