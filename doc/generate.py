@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The pages of the manual that come from the running program: classes, functions, gallery. Run by scripts/doc:
+
+	scripts/yade-mpm -n -x doc/generate.py <folder>
+"""
+import ast
+import glob
+import inspect
+import os
+import re
+import shutil
+import sys
+
+root = os.path.join(os.path.dirname(os.path.realpath(sys.argv[0])), '..')
+folder = sys.argv[1]
+
+import yade.wrapper
+from yade import mpm
+
+
+def text(doc):
+	"""A docstring of YADE's as reStructuredText: its roles resolved, the rest taken literally."""
+	doc = re.sub(r' ?:y(attrtype|attrflags|default):`[^`]*`', '', doc or '').strip()
+	parts = re.split(r'(:yref:`[^`]*`|``[^`]*``)', doc)
+	for k, part in enumerate(parts):
+		if part.startswith(':yref:'): parts[k] = part.replace(':yref:', ':py:obj:')
+		elif not part.startswith('``'): parts[k] = re.sub(r'([*|\\]|_(?=\W|$))', r'\\\1', part)
+	return ''.join(parts)
+
+
+def role(doc, name):
+	found = re.search(r':%s:`([^`]*)`' % name, doc or '')
+	return found.group(1).strip() if found else ''
+
+
+def indent(lines, by='   '):
+	return '\n'.join(by + line if line.strip() else '' for line in lines.splitlines())
+
+
+def own(module):
+	"""Classes of the plugin, bases first."""
+	names = [n for n in re.findall(r'\((\w+)\)', open(os.path.join(root, 'pkg/mpm/Plugin.cpp')).read())]
+	return [getattr(module, n) for n in names]
+
+
+def classes():
+	page = ['Classes', '=======', '', 'Made from the classes of the running program; ``help(MpmEngine)`` at the prompt says the same.', '']
+	for cls in sorted(own(yade.wrapper), key=lambda c: (c.__name__ not in ('MpmEngine', 'MpmWall'), c.__name__)):
+		base = cls.__bases__[0].__name__
+		page += [cls.__name__, '-'*len(cls.__name__), '', '.. py:class:: %s(**attributes)' % cls.__name__, '', indent('Derived from ``%s``.' % base), '', indent(text(cls.__doc__)), '']
+		for name, item in vars(cls).items():
+			if name.startswith('_') or name.startswith('disp'): continue
+			if callable(item) and not isinstance(item, property):
+				doc = [line for line in (item.__doc__ or '').strip().splitlines() if line.strip()]
+				page += [indent('.. py:method:: %s()' % name), '', indent(text(' '.join(line.strip() for line in doc if '->' not in line)), ' '*6), '']
+				continue
+			kind, default = role(item.__doc__, 'yattrtype'), role(item.__doc__, 'ydefault')
+			page += [indent('.. py:attribute:: %s' % name)] + ([indent('   :type: %s' % kind)] if kind else []) + ['']
+			page += [indent(text(item.__doc__) + (' Default: ``%s``.' % default if default else ''), ' '*6), '']
+	return '\n'.join(page)
+
+
+def python():
+	page = ['Python: ``from yade import mpm``', '='*32, '', '.. py:module:: mpm', '']
+	for name in mpm.__all__:
+		item = getattr(mpm, name)
+		kind, signature = ('function', str(inspect.signature(item))) if inspect.isfunction(item) else ('class', '')
+		page += ['.. py:%s:: %s%s' % (kind, name, signature), '', indent(re.sub(':yref:', ':py:obj:', inspect.getdoc(item))), '']
+	return '\n'.join(page)
+
+
+def gallery():
+	"""Every example with its picture and its command, both of them required."""
+	page = ['# Gallery', '', 'Each example leaves its pictures and tables in the folder `out`.', '']
+	os.makedirs(os.path.join(folder, 'gallery'), exist_ok=True)
+	for script in sorted(glob.glob(os.path.join(root, 'scripts/examples/*.py'))):
+		name = os.path.basename(script)[:-3]
+		doc = ast.get_docstring(ast.parse(open(script).read())) or sys.exit('%s has no docstring' % script)
+		commands = [line.strip() for line in doc.splitlines() if line.strip().startswith('scripts/')] or sys.exit('%s: its docstring does not say the command that runs it' % script)
+		pictures = [p for p in ('gallery/%s.png' % name, 'verification/figures/%s.png' % name) if os.path.exists(os.path.join(root, 'doc', p))]
+		if not pictures: sys.exit('%s has no picture: put one into doc/gallery/%s.png' % (script, name))
+		paragraph = lambda part: '\n'.join(line.strip() for line in part.splitlines())
+		rest = [paragraph(part) for part in doc.split('\n\n')[1:] if not part.strip().startswith('scripts/')]
+		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands + ['```', '', '![%s](%s)' % (name, pictures[0]), '']
+		page += ['\n\n'.join(rest).replace('*', '\\*'), '']
+	return '\n'.join(page)
+
+
+for name, page in ('classes.rst', classes), ('python.rst', python), ('gallery.md', gallery):
+	with open(os.path.join(folder, name), 'w') as file: file.write(page())
