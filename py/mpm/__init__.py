@@ -17,6 +17,7 @@ if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
 from .driver import PointHistory, drive
 from .points import array, criticalTimeStep, fill
+from .surface import readStl
 from .view import color
 
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill']
+__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']

@@ -136,6 +136,15 @@ try:
 	surface = gts.sphere(3)
 	x = count(pack.inGtsSurface(surface))
 	near('a surface of GTS: volume', len(x)*.05**3, surface.volume(), .01*surface.volume())
+	plate = mpm.readStl(os.path.join(root, 'scripts', 'examples', 'plate.stl'))
+	polygon = .4*.2 - .5*48*numpy.sin(2*numpy.pi/48)*.04**2
+	near('an STL file: volume, the hole a polygon of about 48 corners', plate.volume(), .02*polygon, 2e-3*.02*polygon)
+	x = count(pack.inGtsSurface(plate), spacing=.004, thickness=.02)
+	near('its section: area', len(x)*.004**2, polygon, .01*polygon)
+	check('nothing in the hole', numpy.hypot(x[:, 0] - .2, x[:, 1] - .1).min() > .039)
+	raises('no such file', FileNotFoundError, 'there is no file', lambda: mpm.readStl(path('none.stl')))
+	with open(path('open.stl'), 'w') as file: file.write('solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n')
+	raises('an open surface', ValueError, 'do not close', lambda: mpm.readStl(path('open.stl')))
 except ImportError:
 	check('GTS is there', False)
 raises('an empty region', ValueError, 'no point lies inside it', lambda: count(pack.inSphere((0, 0, 0), .01)))
