@@ -4,8 +4,8 @@
 	scripts/yade-mpm -n -x scripts/examples/plate_from_stl.py [out]
 
 The file, scripts/examples/plate.stl, is a plate of 0.4 x 0.2 x 0.02 m with a hole of radius 0.04 m. Material points fill its section
-at z = 0. Plane stress, steel with 5 % hardening; the left edge is held by a wall, the right edge pulled at
-0.16 m/s after a smooth start for 3 ms. Leaves in the folder out: plate_from_stl.png, and files for ParaView, plate-points.pvd.
+at z = 0. Plane stress, steel with 5 % hardening; the left edge is held by a wall, the right end is pulled with a force that
+grows smoothly in 2 ms to 620 kN; the net section beside the hole yields at 576 kN. Leaves in the folder out: plate_from_stl.png, and files for ParaView, plate-points.pvd.
 """
 import os
 import sys
@@ -19,27 +19,28 @@ import numpy as np
 from yade import mpm, pack
 from yade import *
 
-SPACING, SPEED, START, END = .004, .16, .5e-3, 3e-3
+SPACING, LOAD, END = .004, 620e3, 2e-3
 out = sys.argv[1] if len(sys.argv) > 1 else 'out'
 os.makedirs(out, exist_ok=True)
 
 O.materials.append(BoucWenMat(label='steel', young=210e9, poisson=.3, density=7850, yieldStress=240e6, tangentRatio=.05, n=10))
 plate = mpm.fill(pack.inGtsSurface(mpm.readStl(os.path.join(root, 'plate.stl'))), spacing=SPACING, thickness=.02, material='steel')
-edge = [i for i in plate if O.bodies[i].state.pos[0] > .4 - SPACING]
-for i in edge: O.bodies[i].state.blockedDOFs = 'x'
+end = [i for i in plate if O.bodies[i].state.pos[0] > .4 - 4*SPACING]  # over two cells
 wall = MpmWall(normal=(1, 0, 0), kind='slip')
+times = np.linspace(0, END, 101)
+loads = LOAD*.5*(1 - np.cos(np.pi*times/END))
 curve = []
 
 
-def pull():
-	for i in edge: O.bodies[i].state.vel = (SPEED*min(1, O.time/START), O.bodies[i].state.vel[1], 0)
-	curve.append((O.bodies[edge[0]].state.displ()[0], -wall.force[0]))
+def record():
+	curve.append((np.mean([O.bodies[i].state.displ()[0] for i in end]), wall.force[0]))
 
 
 O.engines = [
 	ForceResetter(),
-	PyRunner(iterPeriod=1, initRun=True, command='pull()'),
-	MpmEngine(cellSize=2*SPACING, walls=[wall], damping=.02),
+	InterpolatingDirectedForceEngine(ids=end, times=list(times), magnitudes=list(loads/len(end)), direction=(1, 0, 0)),
+	MpmEngine(cellSize=2*SPACING, walls=[wall], damping=.05),
+	PyRunner(iterPeriod=20, command='record()'),
 	MpmVtkRecorder(fileName=os.path.join(out, 'plate-'), virtPeriod=END/10),
 ]
 O.dt = .5*mpm.criticalTimeStep()
@@ -53,9 +54,9 @@ for ax, (values, name) in zip(axes, ((stress/1e6, 'stress along x [MPa]'), (100*
 	ax.set(aspect='equal', xlabel='x [m]', ylabel='y [m]', title=name)
 	figure.colorbar(dots, ax=ax, shrink=.8)
 axes[2].plot(1e3*displacement, load/1e3)
-axes[2].set(xlabel='displacement of the edge [mm]', ylabel='force on the wall [kN]')
+axes[2].set(xlabel='displacement of the loaded end [mm]', ylabel='force on the wall [kN]')
 axes[2].grid(alpha=.3)
 figure.tight_layout()
 figure.savefig(os.path.join(out, 'plate_from_stl.png'), dpi=120)
-print('%d points; force %.0f kN, yield of the net section %.0f kN; greatest plastic strain %.2f %%; results in %s'
-	% (len(plate), load[-20:].mean()/1e3, 240e6*.02*.12/1e3, 100*strain.max(), os.path.abspath(out)))
+print('%d points; force on the wall %.0f kN; greatest plastic strain %.2f %%; results in %s'
+	% (len(plate), load[-1]/1e3, 100*strain.max(), os.path.abspath(out)))
