@@ -18,11 +18,11 @@ mpmPackages=(
 	# to build the plugin
 	g++ cmake ninja-build libeigen3-dev libboost-python-dev libboost-serialization-dev libpython3.11-dev libvtk9-dev
 	# tests and micro-benchmarks
-	libgtest-dev libbenchmark-dev python3-vtk9 xvfb xauth
+	libgtest-dev libbenchmark-dev xvfb xauth
 	# the manual
 	python3-sphinx python3-myst-parser
-	# the Python face, plots
-	python3-numpy python3-matplotlib
+	# the Python face, plots, STL files
+	python3-numpy python3-matplotlib python3-vtk9
 )
 
 mpmFail() {
