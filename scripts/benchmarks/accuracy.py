@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures and tables of doc/accuracy from its accuracy.csv.  python3 scripts/benchmarks/accuracy.py doc/accuracy
+
+Cost is points times steps times the unit cost of a choice: CPU time a point and step, the least over the grids of a case, which is that of
+the fine ones. It is steadier than the time of one run."""
+import csv
+import datetime
+import math
+import os
+import re
+import sys
+
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt
+
+FOLDER = sys.argv[1]
+SHAPES = ('linear', 'gimp', 'quadratic', 'cubic')
+COLOURS = dict(zip(SHAPES, ('C3', 'C1', 'C2', 'C0')))
+STYLES = {'MUSL': '-', 'USL': '--', 'USF': ':'}
+TITLES = {
+	'V1 small': 'bar, strain 3e-4', 'V1 large': 'bar, strain 0.16', 'V2 small': 'plane stress, strain 3e-4', 'V2 large': 'plane stress, strain 0.16',
+	'hysteretic': 'hysteretic bar, 1.3 yield strains', 'hysteretic far': 'hysteretic bar, 3.2 yield strains', 'V3 velocity': 'vibrating bar, velocity',
+	'V3 energy': 'vibrating bar, energy', 'V3 large velocity': 'vibrating bar, large, velocity', 'V3 large energy': 'vibrating bar, large, energy'}
+TARGETS = {
+	'V1 small': (1e-5, 1e-6), 'V1 large': (5e-3, 5e-4), 'V2 small': (1e-5, 2e-6), 'V2 large': (1e-2, 1e-3), 'hysteretic': (2e-4, 2e-5),
+	'hysteretic far': (1e-4, 3e-5), 'V3 velocity': (.1, .02), 'V3 energy': (1e-3, 1e-4), 'V3 large energy': (1e-2, 1e-3)}
+
+
+def read():
+	runs, quadrature = {}, {}
+	with open(os.path.join(FOLDER, 'accuracy.csv')) as f:
+		for row in csv.DictReader(f):
+			if row['problem'] == 'V4':
+				quadrature.setdefault(row['variant'], {})[row['shape']] = float(row['error'])
+				continue
+			key = row['shape'], row['scheme'], int(row['points_a_cell']), row['variant']
+			runs.setdefault(row['problem'], {}).setdefault(key, []).append(
+				(int(row['cells']), float(row['error']), float(row['point_steps']), float(row['cpu_seconds'])))
+	return runs, quadrature
+
+
+def name(key):
+	shape, scheme, points, variant = key
+	return '%s %s, %d a cell%s' % (shape, scheme, points, ', ' + variant if variant else '')
+
+
+def costs(levels):
+	unit = min(seconds/work for _, _, work, seconds in levels if work)
+	return [work*unit for _, _, work, _ in levels]
+
+
+def costOf(levels, target):
+	"""Core-seconds to reach an error: between two grids by a straight line in the logarithms; from a grid on which the error stays below."""
+	spent, errors = costs(levels), [e for _, e, _, _ in levels]
+	for k in range(len(errors)):
+		if not max(errors[k:]) <= target: continue
+		if k == 0 or not errors[k - 1] < math.inf: return spent[k]
+		part = math.log(errors[k - 1]/target)/math.log(errors[k - 1]/errors[k])
+		return math.exp(math.log(spent[k - 1]) + part*math.log(spent[k]/spent[k - 1]))
+	return math.inf
+
+
+def order(levels):
+	(n1, e1, _, _), (n2, e2, _, _) = levels[-2:]
+	return math.log(e1/e2)/math.log(n2/n1) if 0 < e1 < math.inf and 0 < e2 < math.inf else math.nan
+
+
+def number(x): return '-' if not x < math.inf else '%.2g' % x
+
+
+def table(head, rows): return '\n'.join(['| ' + ' | '.join(head) + ' |', '|' + '---|'*len(head)] + ['| ' + ' | '.join(map(str, r)) + ' |' for r in rows])
+
+
+def draw(problem, choices):
+	figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), sharey=True)
+	for key, levels in choices.items():
+		shape, scheme, points, variant = key
+		if variant or (points not in (2, 4)): continue
+		kept = [(1/n, e, c) for (n, e, _, _), c in zip(levels, costs(levels)) if e < math.inf]
+		if not kept: continue
+		h, e, c = zip(*kept)
+		left.loglog(h, e, STYLES[scheme], color=COLOURS[shape], marker='o', markersize=3, label='%s %s' % (shape, scheme))
+		right.loglog(c, e, STYLES[scheme], color=COLOURS[shape], marker='o', markersize=3)
+	left.set_xlabel('cell size over length'); right.set_xlabel('cost [core-seconds]'); left.set_ylabel('error')
+	x0, x1 = left.get_xlim(); y0, y1 = left.get_ylim()
+	slope = [x0*1.2, x0*3.5]
+	left.loglog(slope, [y0*1.5*(x/slope[0])**2 for x in slope], color='grey', linewidth=1)
+	left.annotate('order 2', (slope[1], y0*1.5*(slope[1]/slope[0])**2), fontsize=8, color='grey')
+	for axes in (left, right): axes.grid(True, which='major', linewidth=.3)
+	left.legend(fontsize=7, ncol=2); figure.suptitle(TITLES[problem])
+	figure.tight_layout()
+	figure.savefig(os.path.join(FOLDER, problem.replace(' ', '_') + '.png'), dpi=110)
+	plt.close(figure)
+
+
+def machine():
+	with open('/proc/cpuinfo') as f: model = re.search(r'model name\s*: (.*)', f.read())
+	return '%s, one thread, %s' % (model.group(1) if model else 'unknown processor', datetime.date.today().isoformat())
+
+
+def put(text, mark, content):
+	return re.sub('(<!-- %s -->\n).*?(<!-- end of %s -->)' % (mark, mark), lambda m: m.group(1) + content + '\n' + m.group(2), text, flags=re.S)
+
+
+runs, quadrature = read()
+cheapest, orders = [], []
+for problem, choices in runs.items():
+	draw(problem, choices)
+	for target in TARGETS.get(problem, ()):
+		ranked = sorted((costOf(levels, target), name(key)) for key, levels in choices.items())
+		default = costOf(choices['cubic', 'MUSL', 2 if ('cubic', 'MUSL', 2, '') in choices else 4, ''], target)
+		first = ranked[:2]
+		cheapest.append((TITLES[problem], '%g' % target) + tuple('%s: %s' % (n, number(c)) if c < math.inf else '-' for c, n in first) + (number(default),))
+	for key, levels in sorted(choices.items()):
+		orders.append((TITLES[problem], name(key), ', '.join('%d: %s' % (n, '%.3g' % e if e < math.inf else 'fails') for n, e, _, _ in levels),
+			'%.2f' % order(levels), '%.0f' % (1e9*min(t/w for _, _, w, t in levels if w))))
+page = os.path.join(FOLDER, 'README.md')
+with open(page) as f: text = f.read()
+text = put(text, 'machine', machine())
+text = put(text, 'cheapest', table(('case', 'wanted error', 'cheapest [core-s]', 'second [core-s]', 'cubic MUSL, 2 points an axis [core-s]'), cheapest))
+text = put(text, 'orders', table(('case', 'choice', 'cells: error', 'last order', 'ns a point and step'), orders))
+text = put(text, 'quadrature', table(('spacing/h',) + SHAPES, [(s,) + tuple('%.2g' % v[k] if v[k] > 1e-12 else '0' for k in SHAPES) for s, v in quadrature.items()]))
+with open(page, 'w') as f: f.write(text)

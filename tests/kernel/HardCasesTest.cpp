@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/* Scenes that break a material point method, each with the bound that is claimed, or the exception that ends it. */
+#include "VibratingBar.hpp"
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace yade::mpm;
+
+namespace {
+
+// ---- a bar, L = 1, E = 1e7, rho = 1000, c = 100 -------------------------------------------------------------------------
+
+const double young = 1e7, density = 1000, c = 100;
+
+Scene bar(int cells, ShapeKind shape, std::vector<Law> laws, int pointsPerCell = 2)
+{
+	Scene s;
+	s.laws  = std::move(laws);
+	s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+	s.addBox(1, { 0, 0, 0 }, { 1, 0, 0 }, 1. / (cells * pointsPerCell));
+	s.start(Analysis::uniaxial, shape, 1. / cells);
+	s.control.dt = .2 / cells / c;
+	return s;
+}
+
+/* A bar that strikes a rigid wall: with sigma = E ln F, jumps of momentum and length across the shock of speed U give
+U v/c^2 = -ln(1 - v/U), and the wall carries rho U v. At v = c/2: U = 1.1467 c, 0.5733 E, compression to 0.564. */
+TEST(HardCasesTest, ImpactAtHalfTheWaveSpeed)
+{
+	for (ShapeKind shape : allShapes)
+		for (Scheme scheme : allSchemes)
+			for (double ratio : { .1, .5 }) {
+				SCOPED_TRACE(std::string(name(shape)) + ' ' + name(scheme) + ' ' + std::to_string(ratio));
+				double shock = 1;
+				for (int k = 0; k < 200; ++k)
+					shock = .5 * (shock - std::log(1 - ratio / shock) / ratio);
+				ASSERT_NEAR(shock * ratio, -std::log(1 - ratio / shock), 1e-12);
+				Scene s    = bar(64, shape, { Scene::elastic(young, 0, density) });
+				s.walls[0] = Scene::wall(0, 1, 0, Wall::Kind::slip);
+				s.setVelocity([&](auto) { return std::array<double, 3> { -ratio * c, 0, 0 }; });
+				s.control.scheme = scheme;
+				s.control.dt     = .3 * s.solver->criticalTimeStep(scheme);
+				const double end = .8 / (shock * c), begin = .1 * end;
+				double       impulse = 0, time = 0;
+				while (s.control.time < end) {
+					s.step();
+					if (s.control.time > begin) impulse += s.walls[0].force[0] * s.control.dt, time += s.control.dt;
+				}
+				s.solver->finish();
+				EXPECT_NEAR(-impulse / time, young * shock * ratio, .05 * young * shock * ratio);
+			}
+}
+
+/* A point that shares no node with another moves as a mass point does. */
+TEST(HardCasesTest, ASinglePointAlone)
+{
+	for (Analysis analysis : allAnalyses)
+		for (ShapeKind shape : allShapes)
+			for (Scheme scheme : allSchemes) {
+				SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(scheme));
+				Scene s;
+				s.laws            = { Scene::boucWen(young, .3, density, 1e4, 2, .05) };
+				const double x[3] = { .0123, dimension(analysis) > 1 ? .0321 : 0., dimension(analysis) > 2 ? -.71 : 0. }, v[3] = { 3, 0, 0 };
+				s.points.append(0, 0, x, v, 1, .001, .05, 1);
+				s.start(analysis, shape, .1);
+				s.control.dt = 1e-4, s.control.scheme = scheme, s.control.gravity = { -9.81, 0, 0 };
+				const double limit = s.solver->criticalTimeStep(scheme);
+				EXPECT_GT(limit, s.control.dt);
+				const int steps = 3000; // 0.3 s, five cells
+				s.run(steps);
+				const double t = steps * s.control.dt;
+				// symplectic Euler: a t dt/2 further than the parabola
+				EXPECT_NEAR(s.points.position[0][0], x[0] + 3 * t - .5 * 9.81 * t * (t + s.control.dt), 1e-11);
+				EXPECT_NEAR(s.points.velocity[0][0], 3 - 9.81 * t, 1e-11);
+				EXPECT_NEAR(s.points.deformation[0][0], 1, 1e-10);
+			}
+}
+
+/* Every point yields in the same step: a bar drawn by a wall while its points move in proportion. */
+TEST(HardCasesTest, YieldAtEveryPointAtOnce)
+{
+	for (double n : { 2., 200. })
+		for (ShapeKind shape : allShapes)
+			for (Scheme scheme : allSchemes) {
+				SCOPED_TRACE(std::string(name(shape)) + ' ' + name(scheme) + " n " + std::to_string(n));
+				const Law law         = Scene::boucWen(young, 0, density, 1e-3 * young, n, .05);
+				Scene     s           = bar(16, shape, { law });
+				s.control.largeStrain = false, s.control.scheme = scheme;
+				const double rate   = 1;
+				s.walls             = { Scene::wall(0, 1, 0, Wall::Kind::slip), Scene::wall(0, -1, 1, Wall::Kind::slip) };
+				s.walls[1].velocity = { rate, 0, 0 };
+				s.setVelocity([&](auto x) { return std::array<double, 3> { rate * x[0], 0, 0 }; });
+				s.control.dt = 1e-5;
+				double least = HUGE_VAL, greatest = 0;
+				for (int k = 0; k < 300; ++k) {
+					s.step(), s.solver->finish();
+					s.walls[1].position += rate * s.control.dt;
+				}
+				double worst = 0;
+				for (std::size_t p = 0; p < s.points.count(); ++p) {
+					const double strain = s.points.deformation[0][p] - 1, part = strain / 1000;
+					double       sigma = 0, internal[8] {};
+					for (int k = 0; k < 1000; ++k)
+						updateStress<Uniaxial>(law, &part, &sigma, internal);
+					least = std::min(least, strain), greatest = std::max(greatest, strain);
+					worst = std::max(worst, std::abs(s.points.stress[0][p] - sigma) / law.boucWen.yieldStress);
+				}
+				EXPECT_NEAR(least, std::log(1.003), 2e-6) << "a strain rate of 1/(1 + t)";
+				EXPECT_NEAR(greatest, least, 1e-9);
+				EXPECT_LT(worst, 1e-4); // its own tolerance
+			}
+}
+
+/* 100 scenes: bodies with holes, stretched, off the grid, with points off their lattice, one in two against walls. 0.95 of the stable
+step does not multiply the energy of small random velocities. */
+TEST(LongHardCasesTest, StableStepOfRandomScenes)
+{
+	std::mt19937 random(2017);
+	auto         uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+	auto         pick    = [&](const auto& list) { return list[std::uniform_int_distribution<std::size_t>(0, list.size() - 1)(random)]; };
+	for (int k = 0; k < 100; ++k) {
+		const Analysis  analysis = pick(allAnalyses);
+		const ShapeKind shape    = pick(allShapes);
+		const Scheme    scheme   = pick(allSchemes);
+		const int       dim      = dimension(analysis);
+		const double    h = .25, spacing = h / pick(std::array<int, 3> { 1, 2, 3 });
+		Scene           full;
+		full.laws                      = { Scene::elastic(young, analysis == Analysis::uniaxial ? 0 : uniform(-.2, .45), density) };
+		const double                at = uniform(.01, .24), holes = uniform(0, .5), jitter = shape == ShapeKind::gimp ? 0 : uniform(0, .3) * spacing;
+		const std::array<double, 3> stretch { uniform(.7, 1.4), uniform(.7, 1.4), uniform(.7, 1.4) };
+		full.addBox(dim, { 0, 0, 0 }, { dim == 3 ? .75 : 1.5, dim == 3 ? .5 : 1, .5 }, spacing);
+		const bool walled = uniform(0, 1) < .5;
+		if (walled) full.walls = { Scene::wall(0, 1, 0, pick(std::array<Wall::Kind, 2> { Wall::Kind::fixed, Wall::Kind::slip })) };
+		std::vector<std::size_t> kept;
+		for (std::size_t p = 0; p < full.points.count(); ++p)
+			if (uniform(0, 1) > holes || p == 0) kept.push_back(p);
+		full.start(analysis, shape, h);
+		full.points.select(kept);
+		for (std::size_t p = 0; p < full.points.count(); ++p) {
+			for (int d = 0; d < dim; ++d) {
+				full.points.deformation[d * (dim + 1)][p] = stretch[d];
+				full.points.position[d][p] = full.points.position[d][p] * stretch[d] + jitter * uniform(0, 1) + (walled && d == 0 ? 0 : at);
+			}
+		}
+		SCOPED_TRACE("scene " + std::to_string(k) + ": " + name(analysis) + ' ' + name(shape) + ' ' + name(scheme));
+		Scene s = full.copy(analysis, shape, h);
+		for (std::size_t p = 0; p < s.points.count(); ++p)
+			for (int d = 0; d < dim; ++d)
+				s.points.velocity[d][p] = uniform(-1e-7 * c, 1e-7 * c);
+		s.control.dt = .95 * s.solver->criticalTimeStep(scheme), s.control.scheme = scheme;
+		const double start = s.kineticEnergy();
+		double       worst = 0;
+		try {
+			for (int step = 0; step < 500 && worst < 1e6; ++step)
+				s.step(), worst = std::max(worst, s.kineticEnergy() / start);
+		} catch (const StepFailure& e) {
+			worst = HUGE_VAL;
+		}
+		EXPECT_LT(worst, 20);
+	}
+}
+
+/* The tip of the vibrating bar enters an empty cell: there USL takes strain from a node of next to no mass. */
+TEST(HardCasesTest, SmallNodalMass)
+{
+	EXPECT_NEAR(vibrate(ShapeKind::linear, 64, Scheme::musl, .1).energyRatio, 1, .03);
+	EXPECT_NEAR(vibrate(ShapeKind::linear, 64, Scheme::usf, .1).energyRatio, 1, .03);
+	for (ShapeKind shape : { ShapeKind::gimp, ShapeKind::quadratic, ShapeKind::cubic })
+		EXPECT_NEAR(vibrate(shape, 64, Scheme::usl, .1).energyRatio, 1, .002) << name(shape);
+	try {
+		vibrate(ShapeKind::linear, 64, Scheme::usl, .1);
+		ADD_FAILURE() << "linear USL has survived";
+	} catch (const StepFailure& e) {
+		EXPECT_EQ(e.id, 127) << "the tip";
+		EXPECT_NE(std::string(e.what()).find("not positive"), std::string::npos) << e.what();
+	}
+}
+
+/* Velocities that alternate from point to point are invisible to the grid: pure FLIP keeps them for ever, without letting them
+grow; a part dt/tau of PIC a step takes them away with the time tau, and of the bar's own motion little. */
+TEST(HardCasesTest, NullSpaceRinging)
+{
+	for (ShapeKind shape : allShapes)
+		for (double tau : { 0., .2 }) {
+			SCOPED_TRACE(std::string(name(shape)) + " tau " + std::to_string(tau));
+			const int    cells = 32;
+			Scene        s     = bar(cells, shape, { Scene::elastic(young, 0, density) });
+			const double v0 = .01, ringing = .1 * v0;
+			s.setVelocity([&](auto x) {
+				const int i = int(x[0] * 2 * cells);
+				return std::array<double, 3> { v0 * std::sin(.5 * pi * x[0]) + (i % 2 ? ringing : -ringing), 0, 0 };
+			});
+			if (tau > 0) s.control.flip = 1 - s.control.dt / tau;
+			auto amplitude = [&] { // of what alternates, in the inner part
+				const auto at  = s.byId();
+				double     sum = 0;
+				for (std::size_t i = 4; i + 5 < at.size(); ++i) {
+					const auto& v = s.points.velocity[0];
+					sum += (i % 2 ? .5 : -.5) * (v[at[i]] - .5 * (v[at[i - 1]] + v[at[i + 1]]));
+				}
+				return sum / double(at.size() - 9);
+			};
+			EXPECT_NEAR(amplitude(), ringing, 1e-3 * ringing);
+			s.run(int(std::lround(.4 / s.control.dt))); // ten periods
+			if (tau > 0)
+				EXPECT_LT(std::abs(amplitude()), .15 * ringing);
+			else
+				EXPECT_NEAR(amplitude(), ringing, .03 * ringing);
+		}
+}
+
+/* A free square that breathes, against one shifted by 0.37 cells and one turned by 45 degrees with its lattice. */
+TEST(HardCasesTest, PlaceAndDirectionOnTheGrid)
+{
+	const double h       = .1;
+	auto         breathe = [&](double shift, double angle) {
+                Scene s;
+                s.laws = { Scene::elastic(young, .3, density) };
+                s.addBox(2, { -.5, -.5, 0 }, { .5, .5, 0 }, h / 2);
+                const Columns X = s.points.position;
+                for (std::size_t p = 0; p < s.points.count(); ++p) {
+                        const double x = X[0][p], y = X[1][p];
+                        s.points.position[0][p] = shift + std::cos(angle) * x - std::sin(angle) * y;
+                        s.points.position[1][p] = shift + std::sin(angle) * x + std::cos(angle) * y;
+                }
+                s.setVelocity([&](auto x) { return std::array<double, 3> { 2 * (x[0] - shift), 2 * (x[1] - shift), 0 }; });
+                s.start(Analysis::planeStress, ShapeKind::cubic, h);
+                s.control.dt = .2 * h / c;
+                std::vector<double> radius;     // about the centre, over its start
+                for (int k = 0; k < 300; ++k) { // three periods
+                        s.run(1);
+                        double sum = 0, start = 0;
+                        for (std::size_t p = 0; p < s.points.count(); ++p) {
+                                const auto id = std::size_t(s.points.id[p]);
+                                sum += std::pow(s.points.position[0][p] - shift, 2) + std::pow(s.points.position[1][p] - shift, 2);
+                                start += X[0][id] * X[0][id] + X[1][id] * X[1][id];
+                        }
+                        radius.push_back(sum / start - 1);
+                }
+                return radius;
+	};
+	const auto   reference = breathe(0, 0);
+	const double amplitude = *std::max_element(reference.begin(), reference.end());
+	for (auto [shift, angle] : { std::pair { .37 * h, 0. }, std::pair { 0., pi / 4 }, std::pair { .37 * h, pi / 4 } }) {
+		const auto other = breathe(shift, angle);
+		double     worst = 0;
+		for (std::size_t k = 0; k < other.size(); ++k)
+			worst = std::max(worst, std::abs(other[k] - reference[k]) / amplitude);
+		EXPECT_LT(worst, .02);
+	}
+}
+
+/* Long runs: a bar of eight points, a million steps. */
+TEST(LongHardCasesTest, AMillionSteps)
+{
+	Scene s = bar(4, ShapeKind::cubic, { Scene::elastic(young, 0, density) });
+	s.setVelocity([](auto x) { return std::array<double, 3> { .01 * std::sin(.5 * pi * x[0]), 0, 0 }; });
+	s.solver->pointsChanged();
+	auto energy = [&] {
+		double sum = s.kineticEnergy();
+		for (std::size_t p = 0; p < s.points.count(); ++p)
+			sum += .5 * s.points.volume0[p] * s.points.stress[0][p] * s.points.stress[0][p] / young;
+		return sum;
+	};
+	auto mean = [&] { // over ten periods: velocities are those of half steps
+		double sum = 0;
+		for (int step = 0; step < 800; ++step)
+			s.run(1), sum += energy() / 800;
+		return sum;
+	};
+	const double start = mean();
+	s.run(998400);
+	EXPECT_NEAR(mean() / start, 1, .01);
+	EXPECT_NEAR(s.points.deformation[0][0], 1, 1e-3);
+}
+
+/* A law with n = 200 is classical plasticity to ln 2/n, in a bar that is struck. */
+TEST(HardCasesTest, VerySharpKnee)
+{
+	const double yieldStress = 1e-3 * young;
+	Law          smooth = Scene::boucWen(young, 0, density, yieldStress, 200, .05), sharp = Scene::elastic(young, 0, density);
+	sharp.kind       = Law::Kind::j2;
+	sharp.j2.elastic = sharp.elastic, sharp.j2.yieldStress = yieldStress, sharp.j2.hardening = BoucWenParameters::hardeningModulus(young, .05);
+	std::array<std::vector<double>, 2> tips;
+	for (std::size_t k = 0; k < 2; ++k) {
+		Scene s = bar(32, ShapeKind::cubic, { k ? sharp : smooth });
+		s.setVelocity([](auto x) { return std::array<double, 3> { .5 * std::sin(.5 * pi * x[0]), 0, 0 }; });
+		s.solver->pointsChanged();
+		for (int step = 0; step < 1000; ++step) {
+			s.step();
+			tips[k].push_back(s.points.position[0][s.byId().back()] - 1);
+		}
+		s.solver->finish();
+		for (double sigma : s.points.stress[0])
+			EXPECT_TRUE(std::isfinite(sigma));
+	}
+	double worst = 0, greatest = 0;
+	for (std::size_t k = 0; k < tips[0].size(); ++k)
+		worst = std::max(worst, std::abs(tips[0][k] - tips[1][k])), greatest = std::max(greatest, std::abs(tips[1][k]));
+	EXPECT_GT(greatest, 2e-3) << "it yields";
+	EXPECT_LT(worst, 1e-3 * greatest);
+}
+
+/* A bar under its weight, 0.9 of the yield stress at the wall, and left to vibrate: the smooth law creeps by each small cycle;
+compatible reloading shakes down. */
+TEST(HardCasesTest, RatchetingByNoise)
+{
+	std::array<double, 2> creep {};
+	for (std::size_t k = 0; k < 2; ++k) {
+		Law law = Scene::boucWen(young, 0, density, 1e-3 * young, 2, .05);
+		if (k) law.boucWen.reloading = HUGE_VAL;
+		Scene        s    = bar(16, ShapeKind::cubic, { law });
+		const double full = .9 * law.boucWen.yieldStress / density;
+		auto         tip  = [&] { return s.points.position[0][s.byId().back()]; };
+		s.control.damping = .05;
+		const int ramp    = 4000;
+		for (int step = 0; step < ramp; ++step)
+			s.control.gravity[0] = full * (step + 1) / ramp, s.step();
+		s.run(4000);
+		s.control.damping = 0;
+		for (std::size_t p = 0; p < s.points.count(); ++p)
+			s.points.velocity[0][p] += .05 * std::sin(.5 * pi * s.points.position[0][p]);
+		s.solver->pointsChanged();
+		std::vector<double> mean; // of the tip, over windows of ten periods
+		for (int window = 0; window < 6; ++window) {
+			double sum = 0;
+			for (int step = 0; step < 3200; ++step)
+				s.step(), sum += tip();
+			mean.push_back(sum / 3200);
+		}
+		creep[k] = (mean[5] - mean[1]) / (mean[1] - 1);
+	}
+	EXPECT_LT(creep[0], -.02) << "without the remedy there is something to cure";
+	EXPECT_LT(std::abs(creep[1]), 2e-4);
+}
+
+} // namespace
