@@ -38,7 +38,7 @@ public:
 		layGrid();
 		if (energy) m_tracking.tiles.resize(m_grid.tiles().size());
 
-		clear(m_mass), clear(m_momentum), clear(m_force);
+		clearSums();
 		if (control.scheme == Scheme::usf) {
 			forEachTile([&](std::size_t t) { pointsToGrid<false>(t); });
 			startVelocities();
@@ -57,8 +57,8 @@ public:
 		const double kineticBefore = energy ? kineticEnergy() : 0;
 		if (energy) trackWork();
 
-		clear(m_velocity);
 		if (control.scheme == Scheme::musl) {
+			clear(m_velocity);
 			forEachTile([&](std::size_t t) { gridToPoints<true>(t); });
 			remapVelocities();
 			if (!m_points.force.empty()) forEachTile([&](std::size_t t) { moveLoadedPoints(t); });
@@ -85,7 +85,7 @@ public:
 		checkStress();
 	}
 
-	void        pointsChanged() override { m_sorted = false; }
+	void        pointsChanged() override { m_sorted = m_known = false; }
 	std::size_t gridBytes() const override { return m_mass.size() * sizeof(double) * (1 + 3 * dim); }
 	Analysis    analysis() const override { return m_analysis; }
 	int         components() const override { return N; }
@@ -150,6 +150,7 @@ private:
 	std::vector<TileReport> m_reports;
 	double                  m_wallHalfSize = 0;     // of the point whose shape functions the bands have been built for
 	bool                    m_laid         = false; // blocks, node arrays and bands are those of the geometry
+	bool                    m_known        = false; // points are in the tiles of m_grid, but where a report says that they have left
 	bool                    m_sorted = false, m_pending = false;
 
 	struct StressWork;
@@ -178,19 +179,21 @@ private:
 			kinds.push_back(wall.kind);
 		if (m_sorted && geometry == m_geometry && kinds == m_kinds) return;
 		finish(); // the pending update belongs to the old grid
-		m_laid     = m_laid && geometry == m_geometry && kinds == m_kinds;
+		if (geometry != m_geometry || kinds != m_kinds) m_laid = m_known = false;
 		m_geometry = geometry, m_kinds = kinds;
 
-		Points&                           P = m_points;
-		std::array<std::vector<int>, dim> bases;
-		for (std::size_t p = 0; p < P.count(); ++p)
-			requireOnGrid(p);
-		for (int d = 0; d < dim; ++d) {
-			bases[d].resize(P.count());
+		Points& P = m_points;
+		if (!m_known)
 			for (std::size_t p = 0; p < P.count(); ++p)
-				bases[d][p] = floorToInt(m_geometry.xi(d, P.position[d][p]) - Shape::shift(halfSize(d, p)));
-		}
-		if (m_grid.sort(P, bases)) m_laid = false;
+				requireOnGrid(p);
+		auto baseOf = [&](std::size_t p) {
+			typename Grid::Index base;
+			for (int d = 0; d < dim; ++d)
+				base[d] = floorToInt(m_geometry.xi(d, P.position[d][p]) - Shape::shift(halfSize(d, p)));
+			return base;
+		};
+		if (m_grid.sort(P, m_known, m_control.threads, baseOf, [&](std::size_t t) { return !m_reports[t].left; })) m_laid = false;
+		m_known = true;
 		m_reports.assign(m_grid.tiles().size(), {});
 		const double r = P.count() ? halfSize(0, 0) : .5; // of the shape functions at the walls
 		if (!m_laid || r != m_wallHalfSize) {
@@ -361,28 +364,42 @@ private:
 		for (int c = 0; c < Grid::corners; ++c) {
 			const std::vector<int>& tiles = m_grid.colour(c);
 			const int               count = int(tiles.size());
-#pragma omp parallel for schedule(dynamic) num_threads(m_control.threads) if (m_control.threads > 1 && count > 1 && m_points.count() > 2000)
+			if (m_control.threads == 1 || count == 1 || m_points.count() <= 2000) { // a team of one is not free
+				for (const int t : tiles)
+					work(std::size_t(t));
+				continue;
+			}
+#pragma omp parallel for schedule(dynamic) num_threads(m_control.threads)
 			for (int k = 0; k < count; ++k)
 				work(std::size_t(tiles[k]));
 		}
 	}
-	/* work(i) for every node. */
-	template <class Work> void forEachGridNode(Work&& work) const
+	/* work(begin, end) for ranges of nodes, whole blocks, that are all nodes together; compiled by run(). */
+	template <class Work> void forEachNodeRange(Work&& work) const
 	{
-		const std::size_t count = m_mass.size();
-#pragma omp parallel for schedule(static) num_threads(m_control.threads) if (m_control.threads > 1 && count > 10000)
-		for (std::size_t i = 0; i < count; ++i)
-			work(i);
-	}
-	void clear(Column& field) const
-	{
-		forEachGridNode([&](std::size_t i) { field[i] = 0; });
+		constexpr std::size_t length = 32 * Grid::nodes;
+		const std::size_t     count  = m_mass.size();
+		if (m_control.threads == 1 || count <= 4 * length) return run(m_instructions, [&work, count] { work(0, count); });
+#pragma omp parallel for schedule(static) num_threads(m_control.threads)
+		for (std::size_t begin = 0; begin < count; begin += length)
+			run(m_instructions, [&work, begin, end = std::min(begin + length, count)] { work(begin, end); });
 	}
 	void clear(NodeVector<dim>& field) const
 	{
-		for (Column& c : field)
-			clear(c);
+		forEachNodeRange([&](std::size_t begin, std::size_t end) {
+			for (Column& c : field)
+				zero(c, begin, end);
+		});
 	}
+	void clearSums()
+	{
+		forEachNodeRange([&](std::size_t begin, std::size_t end) {
+			zero(m_mass, begin, end);
+			for (int d = 0; d < dim; ++d)
+				zero(m_momentum[d], begin, end), zero(m_force[d], begin, end);
+		});
+	}
+	static void zero(Column& field, std::size_t begin, std::size_t end) { std::fill(field.data() + begin, field.data() + end, 0.); }
 
 	// ---- steps of the method: each for a tile, compiled by run() once for each instruction set, so that a pass gives the
 	// same bits wherever it is called from
@@ -511,24 +528,28 @@ private:
 	void updateNodes()
 	{
 		m_band.fold(m_walls, m_mass, m_momentum, m_force, m_control.dt);
-		const double dt = m_control.dt, damping = m_control.damping, least = leastMass();
-		const bool   energy = m_control.trackEnergy;
-		forEachGridNode([&](std::size_t i) {
-			const double mass = m_mass[i], over = mass > least ? 1 / mass : 0;
+		forEachNodeRange([this](std::size_t begin, std::size_t end) {
+			const double  dt = m_control.dt, damping = m_control.damping, least = leastMass();
+			const bool    energy = m_control.trackEnergy;
+			const double* mass   = m_mass.data();
 			for (int d = 0; d < dim; ++d) {
-				double &     v = m_momentum[d][i], &dv = m_force[d][i];
-				const double start = v * over, a = dv * over, trend = a * (start + .5 * dt * a);
-				const double braking = damping * a * ((trend > 0) - (trend < 0));
-				dv                   = dt * (a - braking);
-				if (energy) m_tracking.damping[d][i] = braking;
-				v = start + dv;
+				double *v = m_momentum[d].data(), *dv = m_force[d].data(), *lost = energy ? m_tracking.damping[d].data() : nullptr;
+#pragma omp simd
+				for (std::size_t i = begin; i < end; ++i) {
+					const double over = inverseOf(mass[i], least), start = v[i] * over, a = dv[i] * over, trend = a * (start + .5 * dt * a);
+					const double braking = trend > 0 ? damping * a : trend < 0 ? -damping * a : 0;
+					dv[i]                = dt * (a - braking);
+					v[i]                 = start + dv[i];
+					if (lost) lost[i] = braking;
+				}
 			}
 		});
 		m_band.unfold(m_walls, m_momentum, true);
 		m_band.unfold(m_walls, m_force, false);
 	}
 	/* Nodes with less than this part of a point's mass are empty but for rounding. */
-	double leastMass() const { return 1e-14 * m_points.mass.front(); }
+	double        leastMass() const { return 1e-14 * m_points.mass.front(); }
+	static double inverseOf(double mass, double least) { return mass > least ? 1 / mass : 0; }
 
 	/* Step 3: v_p += sum N_ip dt a_i (FLIP), displacement dt sum N_ip v_i   (eq. 15)
 	Step 4 (remap): (m v)_i = sum N_ip m_p v_p with the new velocities. */
@@ -666,11 +687,15 @@ private:
 	}
 	void divideByMass(const Column& mass, NodeVector<dim>& field) const
 	{
-		const double least = leastMass();
-		forEachGridNode([&](std::size_t i) {
-			const double over = mass[i] > least ? 1 / mass[i] : 0;
-			for (Column& c : field)
-				c[i] *= over;
+		forEachNodeRange([&](std::size_t begin, std::size_t end) {
+			const double  least = leastMass();
+			const double* m     = mass.data();
+			for (Column& c : field) {
+				double* v = c.data();
+#pragma omp simd
+				for (std::size_t i = begin; i < end; ++i)
+					v[i] *= inverseOf(m[i], least);
+			}
 		});
 	}
 
@@ -873,9 +898,10 @@ private:
 	{
 		for (std::size_t t = 0; t < m_reports.size(); ++t) {
 			if (!m_reports[t].left) continue;
-			m_sorted = false;
+			m_sorted = m_known = false;
 			for (std::size_t p = m_grid.tiles()[t].begin; p < m_grid.tiles()[t].end; ++p)
 				requireOnGrid(p);
+			m_known = true;
 		}
 	}
 };

@@ -18,7 +18,7 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	finish();
 	layGrid();
 	m_band.releaseContacts();
-	clear(m_mass), clear(m_momentum);
+	clearSums();
 	forEachTile([&](std::size_t t) { pointsToGrid<false>(t); });
 	const std::size_t nodes = m_mass.size();
 	NodeVector<dim>   f;

@@ -47,61 +47,53 @@ public:
 		return at == m_blocks.end() || *at != block ? -1 : (at - m_blocks.begin()) * nodes + local;
 	}
 
-	/* Brings the points of a tile together and finds the blocks, from the first nodes of the points: bases[d][p] along axis
-	d. What comes of it depends on the points' order and bases alone. Few points are moved where few are out of place; else
-	all are sorted, by tile and by cell inside a tile. Returns whether the blocks are other ones than before. */
-	bool sort(Points& points, const std::array<std::vector<int>, dim>& bases)
+	/* Brings the points of a tile together and finds the blocks. baseOf(p) is the first node of a point's support. isKept(t):
+	no point of tile t has left it since the last sorting; without sortedBefore none is asked for. What comes of it depends
+	on the points' order and bases alone. Few points are moved where few are out of place; else all are sorted, by tile and
+	by cell inside a tile. Returns whether the blocks are other ones than before. */
+	template <class BaseOf, class IsKept> bool sort(Points& points, bool sortedBefore, int threads, BaseOf&& baseOf, IsKept&& isKept)
 	{
-		const std::size_t count  = points.count();
-		auto              tileOf = [&](std::size_t p) {
-                        Index index;
-                        for (int d = 0; d < dim; ++d)
-                                index[d] = bases[d][p] >> log2Width;
-                        return index;
-		};
-		struct Run { // of points that follow each other and share a tile
-			std::size_t begin, end, tile;
-			Index       index;
-		};
-		std::vector<Run> runs;
-		for (std::size_t p = 0; p < count; ++p) {
-			const Index index = tileOf(p);
-			if (runs.empty() || runs.back().index != index) runs.push_back({ p, p, 0, index });
-			runs.back().end = p + 1;
-		}
+		const std::size_t      count = points.count();
+		const std::vector<Run> runs  = findRuns(count, sortedBefore, threads, baseOf, isKept);
 		m_tiles.clear();
 		for (const Run& run : runs)
-			m_tiles.push_back({ run.index, 0, 0, {} });
+			if (m_tiles.empty() || m_tiles.back().index != run.index) m_tiles.push_back({ run.index, 0, 0, {} });
 		auto before = [](const Tile& a, const Tile& b) { return a.index < b.index; };
 		std::sort(m_tiles.begin(), m_tiles.end(), before);
 		m_tiles.erase(std::unique(m_tiles.begin(), m_tiles.end(), [](const Tile& a, const Tile& b) { return a.index == b.index; }), m_tiles.end());
-		for (Run& run : runs) {
-			run.tile = std::size_t(std::lower_bound(m_tiles.begin(), m_tiles.end(), Tile { run.index, 0, 0, {} }, before) - m_tiles.begin());
-			m_tiles[run.tile].end += run.end - run.begin;
+		std::vector<std::size_t> tileOf; // a run
+		for (const Run& run : runs) {
+			tileOf.push_back(std::size_t(std::lower_bound(m_tiles.begin(), m_tiles.end(), Tile { run.index, 0, 0, {} }, before) - m_tiles.begin()));
+			m_tiles[tileOf.back()].end += run.end - run.begin;
 		}
 		for (std::size_t t = 1; t < m_tiles.size(); ++t)
 			m_tiles[t].begin = m_tiles[t - 1].end, m_tiles[t].end += m_tiles[t].begin;
 
 		// points out of their tile's range; the places that they leave are those that they take, tile by tile
 		std::vector<std::pair<std::size_t, std::size_t>> strays; // tile, place
-		for (const Run& run : runs)
-			for (std::size_t p = run.begin; p < run.end; ++p)
-				if (p < m_tiles[run.tile].begin || p >= m_tiles[run.tile].end) strays.push_back({ run.tile, p });
+		for (std::size_t r = 0; r < runs.size(); ++r) {
+			const Tile& tile = m_tiles[tileOf[r]];
+			for (std::size_t p = runs[r].begin; p < std::min(runs[r].end, tile.begin); ++p)
+				strays.push_back({ tileOf[r], p });
+			for (std::size_t p = std::max(runs[r].begin, tile.end); p < runs[r].end; ++p)
+				strays.push_back({ tileOf[r], p });
+		}
 		if (strays.size() > count / 4) {
 			std::vector<std::size_t> at(m_tiles.size() * nodes + 1, 0), order(count);
 			auto                     cell = [&](std::size_t p, std::size_t tile) {
-                                int local = 0;
+                                const Index base  = baseOf(p);
+                                int         local = 0;
                                 for (int d = 0; d < dim; ++d)
-                                        local = local * width + (bases[d][p] & (width - 1));
+                                        local = local * width + (base[d] & (width - 1));
                                 return tile * nodes + std::size_t(local);
 			};
-			for (const Run& run : runs)
-				for (std::size_t p = run.begin; p < run.end; ++p)
-					++at[cell(p, run.tile) + 1];
+			for (std::size_t r = 0; r < runs.size(); ++r)
+				for (std::size_t p = runs[r].begin; p < runs[r].end; ++p)
+					++at[cell(p, tileOf[r]) + 1];
 			std::partial_sum(at.begin(), at.end(), at.begin());
-			for (const Run& run : runs)
-				for (std::size_t p = run.begin; p < run.end; ++p)
-					order[at[cell(p, run.tile)]++] = p;
+			for (std::size_t r = 0; r < runs.size(); ++r)
+				for (std::size_t p = runs[r].begin; p < runs[r].end; ++p)
+					order[at[cell(p, tileOf[r])]++] = p;
 			points.select(order);
 		} else if (!strays.empty()) {
 			std::vector<std::size_t> from, to;
@@ -119,6 +111,45 @@ private:
 	std::vector<Tile>                     m_tiles;
 	std::array<std::vector<int>, corners> m_colours;
 	std::vector<Index>                    m_blocks;
+
+	struct Run { // of points that follow each other and share a tile
+		std::size_t begin, end;
+		Index       index;
+	};
+	/* The points as runs, in the order of the arrays. */
+	template <class BaseOf, class IsKept>
+	std::vector<Run> findRuns(std::size_t count, bool sortedBefore, int threads, const BaseOf& baseOf, const IsKept& isKept) const
+	{
+		constexpr std::size_t length = 4096; // of the parts that threads take
+		const std::size_t     number = sortedBefore ? m_tiles.size() : (count + length - 1) / length;
+		auto                  scan   = [&](std::size_t k) {
+                        if (sortedBefore && isKept(k)) return std::vector<Run> { { m_tiles[k].begin, m_tiles[k].end, m_tiles[k].index } };
+                        const std::size_t begin = sortedBefore ? m_tiles[k].begin : k * length;
+                        const std::size_t end   = sortedBefore ? m_tiles[k].end : std::min(begin + length, count);
+                        std::vector<Run>  runs;
+                        for (std::size_t p = begin; p < end; ++p) {
+                                Index index = baseOf(p);
+                                for (int& i : index)
+                                        i >>= log2Width;
+                                if (runs.empty() || runs.back().index != index) runs.push_back({ p, p, index });
+                                runs.back().end = p + 1;
+                        }
+                        return runs;
+		};
+		std::vector<std::vector<Run>> parts(number);
+		if (threads == 1 || count <= 2 * length)
+			for (std::size_t k = 0; k < number; ++k)
+				parts[k] = scan(k);
+		else {
+#pragma omp parallel for schedule(static) num_threads(threads)
+			for (std::size_t k = 0; k < number; ++k)
+				parts[k] = scan(k);
+		}
+		std::vector<Run> runs;
+		for (const std::vector<Run>& part : parts)
+			runs.insert(runs.end(), part.begin(), part.end());
+		return runs;
+	}
 
 	bool findBlocks()
 	{
