@@ -332,49 +332,68 @@ namespace {
 	}
 } // namespace
 
+/* Whether the point's body still is in O.bodies, looked up anew. */
+bool MpmEngine::link(std::size_t p)
+{
+	const auto  id     = std::size_t(m_points->points.id[p]);
+	const auto& bodies = scene->bodies->body;
+	m_links.resize(std::max(bodies.size(), id + 1));
+	m_links[id] = {};
+	if (!m_points->bodyOf(p, *scene->bodies)) return false;
+	m_links[id] = { bodies[id], bodies[id]->state };
+	return true;
+}
+
 /* What scripts and other engines have done to the points' bodies since the last step: forces, and state that differs from
 what this engine wrote. */
 void MpmEngine::readBodies()
 {
 	if (m_bodies == 0) return;
 	mpm::Points& points = m_points->points;
-	auto&        bodies = *scene->bodies;
+	const auto&  bodies = scene->bodies->body;
+	auto&        forces = scene->forces;
 	const auto   n      = points.count();
 	const int    dim    = int(points.force.size());
-	scene->forces.sync();
+	forces.sync();
+	double *      f[3], *v[3];
+	const double *x[3], *u[3];
+	for (std::size_t d = 0; d < std::size_t(dim); ++d)
+		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
 
 	std::vector<std::size_t> moved;
 	bool                     erased = false;
 	for (std::size_t p = 0; p < n; ++p) {
-		const int id = points.id[p];
+		const int  id = points.id[p];
+		const auto at = std::size_t(id);
 		if (id < 0) continue;
-		const Body* body = m_points->bodyOf(p, bodies);
-		if (!body) {
+		// what MpmPoints::bodyOf has once said holds as long as body and state stay
+		const bool linked =
+			at < m_links.size() && at < bodies.size() && bodies[at] && bodies[at] == m_links[at].body && bodies[at]->state == m_links[at].state;
+		if (!linked && !link(p)) {
 			erased = true;
 			continue;
 		}
-		const State*    state = body->state.get();
-		const Vector3r& force = scene->forces.getForce(id);
-		if (!(force + state->pos + state->vel).allFinite()) refuseNonFinite(id, force, *state);
+		const Body&     body  = *m_links[at].body;
+		const State&    state = *m_links[at].state;
+		const Vector3r& force = forces.getForce(id);
+		const Real      sum   = force.sum() + state.pos.sum() + state.vel.sum();
+		if (!(sum - sum == 0)) refuseNonFinite(id, force, state);
 		bool here = true;
-		for (int d = 0; d < 3; ++d) {
-			const auto axis = std::size_t(d);
-			if (d < dim) points.force[axis][p] = force[d];
-			points.velocity[axis][p] = state->vel[d];
-			const Real advance       = axis < points.advance.size() ? points.advance[axis][p] : 0;
-			here                     = here && state->pos[d] == points.position[axis][p] + advance;
+		for (int d = 0; d < dim; ++d) {
+			f[d][p] = force[d], v[d][p] = state.vel[d];
+			here &= state.pos[d] == x[d][p] + u[d][p];
 		}
-		if (!here) moved.push_back(p);
-		if (dim == 2 && (state->pos[2] != 0 || state->vel[2] != 0))
-			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state->pos[2],
+		if (dim == 2 && (state.pos[2] != 0 || state.vel[2] != 0))
+			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state.pos[2],
 				"in a plane analysis points lie at z = 0 and stay there");
-		if (const auto fixed = std::uint8_t(state->blockedDOFs & 7); fixed || !points.fixed.empty()) {
+		if (!here) moved.push_back(p);
+		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
 			points.fixed.resize(n, 0);
 			points.fixed[p] = fixed;
 		}
-		if (body->material != m_points->materials[std::size_t(points.material[p])]) {
+		if (body.material != m_points->materials[std::size_t(points.material[p])]) {
 			m_points->finish();
-			m_points->changeMaterial(p, body->material);
+			m_points->changeMaterial(p, body.material);
 			prepareSolver();
 		}
 	}
@@ -383,28 +402,30 @@ void MpmEngine::readBodies()
 	m_points->finish();
 	for (const std::size_t p : moved)
 		for (int d = 0; d < 3; ++d)
-			points.position[std::size_t(d)][p] = bodies[unsigned(points.id[p])]->state->pos[d];
-	if (erased) m_points->dropErased(bodies);
+			points.position[std::size_t(d)][p] = m_links[std::size_t(points.id[p])].state->pos[d];
+	if (erased) m_points->dropErased(*scene->bodies);
 	m_solver->pointsChanged();
 	checkPoints(mpm::dimension(analysisOf(analysis)));
 }
 
-void MpmEngine::writeBodies() const
+void MpmEngine::writeBodies()
 {
 	if (m_bodies == 0) return;
 	const mpm::Points& points = m_points->points;
-	auto&              bodies = *scene->bodies;
+	const std::size_t  dim    = points.advance.size();
+	bool               outrun = false;
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		if (points.id[p] < 0) continue;
-		const Body& body  = *bodies[unsigned(points.id[p])];
-		State&      state = *body.state;
-		for (std::size_t d = 0; d < points.advance.size(); ++d) {
+		const Link& link  = m_links[std::size_t(points.id[p])];
+		State&      state = *link.state;
+		for (std::size_t d = 0; d < dim; ++d) {
 			state.pos[int(d)] = points.position[d][p] + points.advance[d][p];
 			state.vel[int(d)] = points.velocity[d][p];
 		}
 		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
-		if (body.bound && (state.pos - body.bound->refPos).squaredNorm() > body.bound->sweepLength * body.bound->sweepLength) scene->doSort = true;
+		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;
 	}
+	if (outrun) scene->doSort = true;
 }
 
 } // namespace yade

@@ -46,6 +46,12 @@ private:
 	std::vector<Real>                          m_checkedFor;       // ... with this scheme and these laws
 	std::vector<Engine*>                       m_checkedEngines;
 
+	struct Link { // held, so that their addresses are theirs alone
+		shared_ptr<Body>  body;
+		shared_ptr<State> state;
+	};
+	std::vector<Link> m_links; // bodies known to be points', by id
+
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
 	mpm::StepControl             prepare();
@@ -59,8 +65,9 @@ private:
 	bool                         stiffnessChanged(const mpm::StepControl& control);
 	void                         checkStep(const mpm::StepControl& control, bool stepper);
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
+	bool                         link(std::size_t p);
 	void                         readBodies();
-	void                         writeBodies() const;
+	void                         writeBodies();
 	void                         reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
