@@ -335,7 +335,6 @@ struct ScalarLaw {
 			if (law.reloading != 0) {
 				const bool back = xi * sign < 0;
 				if (back && reversed == 0) reversedSide = xi, reversed = f;
-				if (back) least = f;
 				if (reversed > 0 && ((!back && f >= reversed) || xi * reversedSide <= 0)) reversed = 0;
 			}
 			std::array<double, 5> sum {}, k {};
@@ -350,6 +349,7 @@ struct ScalarLaw {
 			}
 			for (std::size_t c = 0; c < y.size(); ++c)
 				y[c] += sum[c];
+			if (xi * sign < 0) least = std::abs(y[0] - y[1]);
 		}
 	}
 };
@@ -388,7 +388,7 @@ TEST(BoucWenLaw, OptionsFollowTheirScalarEquations)
 			ScalarLaw          reference;
 			reference.law = law.boucWen;
 			double x = 0, effect = 0, worst = 0;
-			for (const double to : { 3., 1.5, 2.2, -.5, -3., -1.5, .5, 3. }) {
+			for (const double to : { 3., 2.6, 2.95, 1.5, -.5, -3., -2.7, -2.9, .5, 3. }) {
 				point.strain({ (to - x) * yieldStrain }), plain.strain({ (to - x) * yieldStrain });
 				reference.go(to - x, 20000), x = to;
 				worst  = std::max({ worst, std::abs(point.sigma[0] / yieldStress - reference.y[0]),
@@ -396,7 +396,7 @@ TEST(BoucWenLaw, OptionsFollowTheirScalarEquations)
 					 std::abs(point.plasticStrain() / yieldStrain - reference.y[2]) });
 				effect = std::max(effect, std::abs(point.sigma[0] - plain.sigma[0]) / yieldStress);
 			}
-			EXPECT_LT(worst, 2e-5) << c.name << ", alpha = " << alpha;
+			EXPECT_LT(worst, 1e-5) << c.name << ", alpha = " << alpha;
 			EXPECT_GT(effect, .02) << c.name;
 			std::printf("%s, alpha = %g: %.1e, effect %.2f\n", c.name, alpha, worst, effect);
 		}
