@@ -119,8 +119,9 @@ TEST(BoucWenLaw, UniaxialStressInEveryStressState)
 		}
 }
 
-/* Invariants over random paths in one stress state. */
-template <class S> void randomPaths(int paths, unsigned seed, const std::function<void(BoucWenParameters&, std::mt19937&)>& options = {})
+/* Invariants over random paths in one stress state, and the tolerance where the law is continuous in its path. */
+template <class S>
+void randomPaths(int paths, unsigned seed, const std::function<void(BoucWenParameters&, std::mt19937&)>& options = {}, bool continuous = true)
 {
 	std::mt19937                           random(seed);
 	std::uniform_real_distribution<double> unit(0, 1);
@@ -132,7 +133,9 @@ template <class S> void randomPaths(int paths, unsigned seed, const std::functio
 		law.boucWen.gamma = .5 + .5 * (path % 3) * unit(random), law.boucWen.beta = 1 - law.boucWen.gamma;
 		if (options) options(law.boucWen, random);
 		ASSERT_EQ(validate(law), "");
-		LawPoint<S> coarse(law), fine(law);
+		Law reference               = law;
+		reference.boucWen.tolerance = 1e-6;
+		LawPoint<S> coarse(law), fine(reference);
 		double      way = 0;
 		for (int i = 0; i < 6; ++i) {
 			std::array<double, S::N> increment;
@@ -155,19 +158,17 @@ template <class S> void randomPaths(int paths, unsigned seed, const std::functio
 			const double audit = (fine.work - fine.energy() - fine.response.dissipation) / (yieldStress * yieldStrain);
 			worstAudit         = std::max(worstAudit, std::abs(audit) / (1 + way));
 			ASSERT_LE(std::abs(audit), 3e-5 * (1 + way)) << "n = " << n << ", increment " << i << ", way " << way;
-			if (options) continue;
 			double difference = 0;
 			for (int k = 0; k < S::N; ++k)
 				difference = std::max(difference, std::abs(coarse.sigma[k] - fine.sigma[k]) / yieldStress);
-			if (n >= 1) worstDifference = std::max(worstDifference, difference);
-			// both below the tolerance; where H1 has an unbounded slope, the estimate of a sub-step may miss part of its error
-			ASSERT_LE(difference, n < 1 ? 4e-4 : 2e-4) << "n = " << n << ", increment " << i << ", size " << size;
+			worstDifference = std::max(worstDifference, difference);
+			if (continuous) {
+				ASSERT_LE(difference, law.boucWen.tolerance) << "n = " << n << ", increment " << i << ", size " << size;
+			}
 		}
 	}
 	EXPECT_GT(greatest, .999);
-	std::printf("%d paths of %d components: audit %.1e", paths, S::N, worstAudit);
-	if (!options) std::printf(", one step against many %.1e", worstDifference);
-	std::printf("\n");
+	std::printf("%d paths of %d components: audit %.1e, one step against many %.1e\n", paths, S::N, worstAudit, worstDifference);
 }
 
 TEST(LongBoucWenLaw, InvariantsAuditAndStepSizeOnTenThousandRandomPaths)
@@ -189,7 +190,8 @@ TEST(LongBoucWenLaw, InvariantsWithOptions)
 	auto reloading = [](BoucWenParameters& law, std::mt19937& random) { law.reloading = random() % 2 ? infinity : 2; };
 	randomPaths<PlaneStress>(400, 5, isotropic), randomPaths<Solid>(400, 6, isotropic);
 	randomPaths<Uniaxial>(400, 7, degrading), randomPaths<PlaneStress>(400, 8, degrading), randomPaths<Solid>(400, 9, degrading);
-	randomPaths<PlaneStress>(400, 10, reloading), randomPaths<PlaneStrain>(400, 11, reloading);
+	randomPaths<Uniaxial>(400, 12, reloading);
+	randomPaths<PlaneStress>(400, 10, reloading, false), randomPaths<PlaneStrain>(400, 11, reloading, false);
 }
 
 TEST(BoucWenLaw, OneStepOfTenYieldStrainsIsTenThousandSmallOnes)
@@ -302,58 +304,102 @@ TEST(BoucWenLaw, CompatibleReloadingKeepsTheVirginCurve)
 	}
 }
 
-/* The law with its options in one dimension, alpha = 0, by Runge-Kutta: an independent statement of doc/law.md. */
-struct ScalarOptions {
-	double z = 0, e = 0, growth = 0;
+/* The law with its options in one dimension by Runge-Kutta, stresses over sigma_y, p in yield strains: an independent statement of doc/law.md. */
+struct ScalarLaw {
+	BoucWenParameters     law;
+	std::array<double, 5> y {}; // sigma, eta, p, e, growth of the compliance
+	double                reversed = 0, least = 0, reversedSide = 0;
 
-	static std::array<double, 3> rate(const BoucWenParameters& law, const std::array<double, 3>& y, double sign)
+	std::array<double, 5> rate(const std::array<double, 5>& at, double sign) const
 	{
-		const double z = y[0], e = y[1], size = std::abs(z), off = (size - law.pinchingLevel) / law.pinchingWidth;
-		const double h    = 1 - law.pinching * (1 - std::exp(-law.pinchingRate * e)) * std::exp(-off * off);
-		const double flow = z * sign > 0 ? 1 - h * (1 - (1 + law.strengthDegradation * e) * std::pow(size, law.n)) : 0;
-		const double de   = size * flow;
-		return { sign * (1 - flow) / (1 + y[2]), de, std::min(law.stiffnessDegradation, size > 0 ? 2 / (z * z) : 0) * de };
+		const auto [sigma, eta, p, e, growth] = at;
+		const double xi = sigma - eta, f = std::abs(xi), side = xi < 0 ? -1 : 1, D = 1 / (1 + growth), kinematic = law.hardening / youngModulus;
+		const double K = law.isotropic.modulus / youngModulus, Q = law.isotropic.saturation / yieldStress, b = law.isotropic.rate * yieldStrain;
+		const double R = 1 + K * p + Q * (1 - std::exp(-b * p)), slope = K + Q * b * std::exp(-b * p);
+		double       flow = (1 + law.strengthDegradation * e) * std::pow(f / R, law.n);
+		if (side * sign > 0) {
+			if (reversed > 0 && f < reversed) flow *= std::pow(std::max(0., f - least) / (reversed - least), law.reloading);
+			const double off = (f / R - law.pinchingLevel) / law.pinchingWidth;
+			flow             = 1 - (1 - law.pinching * (1 - std::exp(-law.pinchingRate * e)) * std::exp(-off * off)) * (1 - flow);
+		} else
+			flow *= law.beta - law.gamma;
+		const double dp = flow * side * sign * D / (D + kinematic + slope), heat = f * dp;
+		return { D * (sign - dp * side), kinematic * dp * side, dp, heat,
+			std::min(law.stiffnessDegradation, 2 / std::max(1e-30, sigma * sigma)) * heat };
 	}
-	void go(const BoucWenParameters& law, double dx, int steps)
+	void go(double dx, int steps)
 	{
 		const double h = std::abs(dx) / steps, sign = dx > 0 ? 1 : -1;
 		for (int i = 0; i < steps; ++i) {
-			std::array<double, 3> y { z, e, growth }, sum {}, k {};
+			const double xi = y[0] - y[1], f = std::abs(xi);
+			if (law.reloading != 0) {
+				const bool back = xi * sign < 0;
+				if (back && reversed == 0) reversedSide = xi, reversed = f;
+				if (reversed > 0 && ((!back && f >= reversed) || xi * reversedSide <= 0)) reversed = 0;
+			}
+			std::array<double, 5> sum {}, k {};
 			const double          node[] = { 0, .5, .5, 1 }, weight[] = { 1, 2, 2, 1 };
 			for (int stage = 0; stage < 4; ++stage) {
-				std::array<double, 3> at = y;
-				for (std::size_t c = 0; c < 3; ++c)
+				std::array<double, 5> at = y;
+				for (std::size_t c = 0; c < y.size(); ++c)
 					at[c] += node[stage] * h * k[c];
-				k = rate(law, at, sign);
-				for (std::size_t c = 0; c < 3; ++c)
+				k = rate(at, sign);
+				for (std::size_t c = 0; c < y.size(); ++c)
 					sum[c] += weight[stage] * h / 6 * k[c];
 			}
-			z += sum[0], e += sum[1], growth += sum[2];
+			for (std::size_t c = 0; c < y.size(); ++c)
+				y[c] += sum[c];
+			if (xi * sign < 0) least = std::abs(y[0] - y[1]);
 		}
 	}
 };
 
-TEST(BoucWenLaw, DegradationAndPinching)
+TEST(BoucWenLaw, OptionsFollowTheirScalarEquations)
 {
-	struct Case {
-		double strength, stiffness, pinching, level;
+	const struct {
+		const char*                             name;
+		std::function<void(BoucWenParameters&)> set;
+	} cases[] = {
+		{ "strength", [](auto& p) { p.strengthDegradation   = .1; } },
+		{ "stiffness", [](auto& p) { p.stiffnessDegradation= .2; } },
+		{ "pinching", [](auto& p) { p.pinching= .7, p.pinchingLevel = .3; } },
+		{ "degradation", [](auto& p) { p.strengthDegradation= .05, p.stiffnessDegradation = .1, p.pinching = .8, p.pinchingLevel = .2; } },
+		{ "beta, gamma", [](auto& p) { p.beta= .1, p.gamma = .9; } },
+		{ "isotropic", [](auto& p) { p.isotropic.modulus= .05 * youngModulus; } },
+		{ "saturation",
+			[](auto& p) {
+				p.isotropic= { 0, .5 * yieldStress, .3 / yieldStrain };
+			} },
+		{ "reloading", [](auto& p) { p.reloading= 2; } },
+		{ "n below 1", [](auto& p) { p.n= .7, p.beta = .2, p.gamma = .8; } },
+		{ "all",
+			[](auto& p) {
+				p.beta= .3, p.gamma = .7, p.isotropic = { .02 * youngModulus, .3 * yieldStress, .3 / yieldStrain },
+				p.strengthDegradation= .05;
+				p.stiffnessDegradation= .1, p.pinching = .5, p.pinchingLevel = .2, p.reloading = 3;
+			} },
 	};
-	for (const Case& c : { Case { .1, 0, 0, 0 }, Case { 0, .2, 0, 0 }, Case { 0, 0, .7, .3 }, Case { .05, .1, .8, .2 } }) {
-		Law law                          = boucWenLaw(2, 0, 1e-7);
-		law.boucWen.strengthDegradation  = c.strength;
-		law.boucWen.stiffnessDegradation = c.stiffness;
-		law.boucWen.pinching = c.pinching, law.boucWen.pinchingLevel = c.level;
-		LawPoint<Uniaxial> point(law), plain(boucWenLaw(2, 0, 1e-7));
-		ScalarOptions      reference;
-		double             x = 0, effect = 0;
-		for (const double to : { 3., 1.5, -.5, -3., -1.5, .5, 3. }) {
-			point.strain({ (to - x) * yieldStrain }), plain.strain({ (to - x) * yieldStrain });
-			reference.go(law.boucWen, to - x, 20000), x = to;
-			EXPECT_NEAR(point.sigma[0] / yieldStress, reference.z, 2e-5) << "at " << to;
-			effect = std::max(effect, std::abs(point.sigma[0] - plain.sigma[0]) / yieldStress);
+	for (const auto& c : cases)
+		for (const double alpha : { 0., .05 }) {
+			Law law = boucWenLaw(2, alpha, 1e-7);
+			c.set(law.boucWen);
+			ASSERT_EQ(validate(law), "") << c.name;
+			LawPoint<Uniaxial> point(law), plain(boucWenLaw(2, alpha, 1e-7));
+			ScalarLaw          reference;
+			reference.law = law.boucWen;
+			double x = 0, effect = 0, worst = 0;
+			for (const double to : { 3., 2.6, 2.95, 1.5, -.5, -3., -2.7, -2.9, .5, 3. }) {
+				point.strain({ (to - x) * yieldStrain }), plain.strain({ (to - x) * yieldStrain });
+				reference.go(to - x, 20000), x = to;
+				worst  = std::max({ worst, std::abs(point.sigma[0] / yieldStress - reference.y[0]),
+					 std::abs(point.internal[0] / yieldStress - reference.y[1]),
+					 std::abs(point.plasticStrain() / yieldStrain - reference.y[2]) });
+				effect = std::max(effect, std::abs(point.sigma[0] - plain.sigma[0]) / yieldStress);
+			}
+			EXPECT_LT(worst, 1e-5) << c.name << ", alpha = " << alpha;
+			EXPECT_GT(effect, .02) << c.name;
+			std::printf("%s, alpha = %g: %.1e, effect %.2f\n", c.name, alpha, worst, effect);
 		}
-		EXPECT_GT(effect, .05);
-	}
 }
 
 TEST(BoucWenLaw, StrengthDegradationLowersThePlateau)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Hardening.hpp"
-#include "Response.hpp"
+#include "Reals.hpp"
 #include "StressState.hpp"
 #include <algorithm>
 
@@ -62,15 +62,24 @@ struct BoucWenParameters {
 };
 
 namespace detail {
-	/* z^n; n is a whole or half number in most scenes, which spares the call of pow. */
-	inline double power(double z, double n)
+	inline bool isHalfOrWhole(double n) { return 2 * n <= 2048 && 2 * n == int(2 * n); }
+
+	/* z^n; n is a whole or half number in most scenes, which spares the call of pow. Up to `small`, pow may give 0. */
+	template <int W> void power(const Reals<W>& base, double n, double small, Reals<W>& result)
 	{
-		const double twice = 2 * n;
-		if (!(twice <= 2048) || twice != int(twice)) return std::pow(z, n);
-		double result = int(twice) & 1 ? std::sqrt(z) : 1;
-		for (int bits = int(twice) >> 1; bits; bits >>= 1, z *= z)
-			if (bits & 1) result *= z;
-		return result;
+		if (!isHalfOrWhole(n)) {
+			for (int l = 0; l < W; ++l)
+				result[l] = base[l] > small ? std::pow(base[l], n) : 0;
+			return;
+		}
+		const int  twice = int(2 * n);
+		const bool half  = twice & 1;
+		Reals<W>   z     = base;
+		forLanes<W>([&](int l) { result[l] = half ? std::sqrt(z[l]) : 1; });
+		for (int bits = twice >> 1; bits; bits >>= 1) {
+			if (bits & 1) forLanes<W>([&](int l) { result[l] *= z[l]; });
+			forLanes<W>([&](int l) { z[l] *= z[l]; });
+		}
 	}
 
 	/* What the law integrates, one flat vector y: sigma, eta, p, dissipation; with options also e, compliance growth, strain. */
@@ -79,211 +88,310 @@ namespace detail {
 		static constexpr int size = options ? strain + S::N : e;
 	};
 
+	template <class S, int W> void backStressFree(const Reals<W>* y, int l, double* xi)
+	{
+		for (int k = 0; k < S::N; ++k)
+			xi[k] = y[k][l] - y[S::N + k][l];
+	}
+
 	/* The last turn from loading to unloading, until it is reached again or the stress has gone to the other side. */
-	template <class S> struct Reversal {
-		double xi[S::N] {}, f = 0, least = 0; // f = 0: none
-		bool   elastic = false;               // the sub-step under way stays below f
+	template <class S, int W> struct Reversal {
+		Reals<W> xi[S::N] {}, f {}, least {}; // f = 0: none
+		Reals<W> elastic {};                  // whether the sub-step under way stays below f
+		Reals<W> unloading {}, reached {};    // whether the sub-step under way unloads; ends at f
 
 		/* Positive while xi is on its side. */
-		double along(const double* Mxi) const { return dot<S>(Mxi, xi); }
+		double along(const double* Mxi, int l) const
+		{
+			double sum = 0;
+			for (int k = 0; k < S::N; ++k)
+				sum += Mxi[k] * xi[k][l];
+			return sum;
+		}
+		/* Before a sub-step of the lanes that have a way to go: notes a turn, and shortens elastic reloading to what is left up
+		to f, or to where the stress leaves its side. */
+		void begin(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, const Reals<W>& done, Reals<W>& step)
+		{
+			constexpr int N    = S::N;
+			const bool    stop = std::isinf(law.reloading);
+			forLanes<W>([&](int l) {
+				double x[N], m[N], de[N], Mde[N];
+				backStressFree<S>(y, l, x);
+				const double softening = 1 / (1 + y[BoucWenVector<S, true>::compliance][l]);
+				for (int k = 0; k < N; ++k)
+					de[k] = softening * De[k][l];
+				S::normal(x, 1, m), S::normal(de, 1, Mde);
+				const double f2 = S::mises2(x), mDe = dot<S>(m, de);
+				const bool   back = mDe < 0, turns = back & (f[l] == 0) & (f2 > 0) & (done[l] < 1);
+				unloading[l] = back;
+				f[l] = turns ? std::sqrt(f2) : f[l], least[l] = turns ? std::sqrt(f2) : least[l];
+				for (int k = 0; k < N; ++k)
+					xi[k][l] = turns ? x[k] : xi[k][l];
+				const bool up = stop & !back & (f[l] > 0);
+				elastic[l]    = up;
+
+				const double A = S::mises2(de), C = f2 - f[l] * f[l], side = along(m, l), turn = along(Mde, l);
+				const double t = -C / (mDe + std::sqrt(std::max(0., mDe * mDe - A * C))), across = turn < 0 ? -side / turn : step[l];
+				double       limit = t < step[l] ? t : step[l];
+				limit              = std::max(0., across < limit ? across : limit);
+				reached[l]         = up & (limit < step[l]);
+				step[l]            = up ? limit : step[l];
+			});
+		}
+		/* After it, where it is accepted. */
+		void end(const Reals<W>* y, const Reals<W>& done, const Reals<W>& accepted)
+		{
+			forLanes<W>([&](int l) {
+				double x[S::N], m[S::N];
+				backStressFree<S>(y, l, x);
+				S::normal(x, 1, m);
+				const double f2    = S::mises2(x);
+				const bool   back  = unloading[l] != 0;
+				const bool   past  = (reached[l] != 0) | (!back & (f2 >= f[l] * f[l])) | !(along(m, l) > 0);
+				const bool   taken = (accepted[l] != 0) & (done[l] < 1);
+				least[l]           = taken & back ? std::sqrt(f2) : least[l];
+				f[l]               = taken & past ? 0 : f[l];
+			});
+		}
 	};
 
-	/* H1 H2 with the options: the part of the loading that flows. */
-	template <class S>
-	double flowRatio(const BoucWenParameters& law, const double* y, const Reversal<S>& reversal, const double* De, const double* Mxi, double f,
-		double radius, double MxiDe)
+	/* The part of the loading that flows, with the options: H1 H2, where H1 comes in and goes out. */
+	template <class S, int W>
+	void flowRatio(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, const Reversal<S, W>& reversal, const Reals<W>& f,
+		const Reals<W>& radius, const Reals<W>& mDe, Reals<W>& H1)
 	{
-		using Y   = BoucWenVector<S, true>;
-		double H1 = power(f / radius, law.n);
+		using Y               = BoucWenVector<S, true>;
+		constexpr int N       = S::N;
+		const double  loading = law.beta + law.gamma, unloading = law.beta - law.gamma;
 		if (law.paper()) {
-			double product = 0;
-			for (int k = 0; k < S::N; ++k)
-				product += (S::solid[k] < 3 ? 1 : 2) * y[Y::strain + k] * De[k];
-			return H1 * (product > 0 ? law.beta + law.gamma : law.beta - law.gamma);
+			forLanes<W>([&](int l) {
+				double product = 0;
+				for (int k = 0; k < N; ++k)
+					product += (S::solid[k] < 3 ? 1 : 2) * y[Y::strain + k][l] * De[k][l];
+				H1[l] *= product > 0 ? loading : unloading;
+			});
+			return;
 		}
-		H1 *= 1 + law.strengthDegradation * y[Y::e];
-		if (!(MxiDe > 0)) return H1 * (law.beta - law.gamma);
-		if (reversal.elastic) return 0;
-		if (reversal.f > 0 && f < reversal.f && reversal.along(Mxi) > 0)
-			H1 *= f > reversal.least ? power((f - reversal.least) / (reversal.f - reversal.least), law.reloading) : 0;
-		if (law.pinching == 0) return H1;
-		// Baber & Noori's factor on the loading stiffness 1 - H1, with the slip along a
-		const double off = (f / radius - law.pinchingLevel) / law.pinchingWidth;
-		const double h   = 1 + law.pinching * std::expm1(-law.pinchingRate * y[Y::e]) * std::exp(-off * off);
-		return 1 - h * (1 - H1);
+		forLanes<W>([&](int l) { H1[l] *= 1 + law.strengthDegradation * y[Y::e][l]; });
+		Reals<W> loads = H1;
+		if (law.remembers()) {
+			Reals<W> part, factor;
+			forLanes<W>([&](int l) {
+				double x[N], m[N];
+				backStressFree<S>(y, l, x);
+				S::normal(x, 1, m);
+				const bool below = (reversal.f[l] > 0) & (f[l] < reversal.f[l]) & (reversal.along(m, l) > 0);
+				part[l]          = below ? std::max(0., f[l] - reversal.least[l]) / (reversal.f[l] - reversal.least[l]) : 1;
+			});
+			power(part, law.reloading, 0, factor);
+			forLanes<W>([&](int l) { loads[l] *= factor[l]; });
+		}
+		if (law.pinching != 0) // Baber & Noori's factor on the loading stiffness 1 - H1, with the slip along a
+			for (int l = 0; l < W; ++l) {
+				const double off = (f[l] / radius[l] - law.pinchingLevel) / law.pinchingWidth;
+				const double h   = 1 + law.pinching * std::expm1(-law.pinchingRate * y[Y::e][l]) * std::exp(-off * off);
+				loads[l]         = 1 - h * (1 - loads[l]);
+			}
+		forLanes<W>([&](int l) { H1[l] = mDe[l] > 0 ? (reversal.elastic[l] != 0 ? 0 : loads[l]) : H1[l] * unloading; });
 	}
 
-	/* dy over a strain increment and the elastic stress De that belongs to it. With m = M xi = f a:
-	   lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio. */
-	template <class S, bool options>
-	void boucWenRate(const BoucWenParameters& law, const Reversal<S>& reversal, const double* y, const double* strain, const double* De, double* dy)
+	/* dy over a strain increment and the elastic stress De that belongs to it, and the sign of loading. With m = M xi = f a:
+	   lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio.
+	Up to z = f/sigma_y = small, the flow is known to be none. */
+	template <class S, bool options, int W>
+	void boucWenRate(const BoucWenParameters& law, double small, const Reversal<S, W>& reversal, const Reals<W>* y, const Reals<W>* strain,
+		const Reals<W>* De, Reals<W>* dy, Reals<W>& mDe)
 	{
-		using Y         = BoucWenVector<S, options>;
-		constexpr int N = S::N;
-		double        xi[N], m[N], Dm[N], b[N], softening = 1, radius = law.yieldStress, hardening = law.hardening;
-		if (options) {
-			softening = 1 / (1 + y[Y::compliance]);
-			radius    = law.isotropic.radius(radius, y[Y::p]);
-			hardening += law.isotropic.slope(y[Y::p]);
-			for (int k = 0; k < N; ++k)
-				dy[Y::strain + k] = (S::solid[k] < 3 ? 1 : .5) * strain[k];
-			dy[Y::e] = dy[Y::compliance] = 0;
-		}
-		for (int k = 0; k < N; ++k)
-			xi[k] = y[k] - y[Y::eta + k], dy[k] = softening * De[k], dy[Y::eta + k] = 0;
-		dy[Y::p] = dy[Y::dissipation] = 0;
-
-		const double f2 = S::mises2(xi);
-		S::normal(xi, 1, m);
-		const double mDe = dot<S>(m, dy);
-		if (!(f2 > 1e-24 * radius * radius)) return; // no direction
-		const double f = std::sqrt(f2);
-		double       H;
-		if constexpr (options)
-			H = flowRatio(law, y, reversal, De, m, f, radius, mDe);
-		else {
-			const double H2 = mDe > 0 ? law.beta + law.gamma : law.beta - law.gamma;
-			H               = H2 != 0 ? power(f * (1 / law.yieldStress), law.n) * H2 : 0;
-		}
-		if (!(std::abs(H) > 1e-3 * law.tolerance)) return; // elastic within the tolerance
-
-		S::elastic(law.elastic, m, Dm), S::back(xi, b);
-		const double q = H * mDe / (softening * dot<S>(m, Dm) + hardening * f2);
-		for (int k = 0; k < N; ++k)
-			dy[k] -= q * softening * Dm[k], dy[Y::eta + k] = q * law.hardening * b[k];
-		dy[Y::p] = q * f, dy[Y::dissipation] = q * f2;
+		using Y          = BoucWenVector<S, options>;
+		constexpr int N  = S::N;
+		const double  sy = law.yieldStress, overYield = 1 / sy, least = 1e-3 * law.tolerance, loading = law.beta + law.gamma,
+			     unloading = law.beta - law.gamma;
+		const Hooke& C         = law.elastic;
+		Reals<W>     radius, slope, f, z, H;
 		if constexpr (options) {
-			if (!law.degrades()) return;
-			// the compliance may grow by no more than the plastic work pays for
-			const double unit = law.elastic.young / (law.yieldStress * law.yieldStress), stored = complianceProduct<S>(law.elastic, y);
-			dy[Y::e]           = unit * q * f2;
-			dy[Y::compliance]  = std::min(law.stiffnessDegradation * unit, stored > 0 ? 2 / stored : 0) * q * f2;
-			dy[Y::dissipation] = std::max(0., q * f2 - .5 * dy[Y::compliance] * stored);
+			for (int l = 0; l < W; ++l)
+				radius[l] = law.isotropic.radius(sy, y[Y::p][l]), slope[l] = law.isotropic.slope(y[Y::p][l]);
+			forLanes<W>([&](int l) {
+				for (int k = 0; k < N; ++k)
+					dy[Y::strain + k][l] = (S::solid[k] < 3 ? 1 : .5) * strain[k][l];
+				dy[Y::e][l] = dy[Y::compliance][l] = 0;
+			});
 		}
+		auto softeningOf = [&](int l) {
+			if constexpr (options) return 1 / (1 + y[Y::compliance][l]);
+			return 1.;
+		};
+		forLanes<W>([&](int l) {
+			double       xi[N], m[N], de[N];
+			const double softening = softeningOf(l);
+			backStressFree<S>(y, l, xi);
+			for (int k = 0; k < N; ++k)
+				de[k] = softening * De[k][l], dy[k][l] = de[k], dy[Y::eta + k][l] = 0;
+			dy[Y::p][l] = dy[Y::dissipation][l] = 0;
+			S::normal(xi, 1, m);
+			mDe[l] = dot<S>(m, de);
+			f[l]   = std::sqrt(S::mises2(xi));
+			z[l]   = options ? f[l] / radius[l] : f[l] * overYield;
+		});
+		power(z, law.n, small, H);
+		if constexpr (options)
+			flowRatio(law, y, De, reversal, f, radius, mDe, H);
+		else
+			forLanes<W>([&](int l) { H[l] *= mDe[l] > 0 ? loading : unloading; });
+		// no direction at f = 0; elastic within the tolerance
+		auto flows = [&](int l) { return (z[l] > 1e-12) & (std::abs(H[l]) > least); };
+		if (!anyLane<W>(flows)) return;
+
+		const double unit     = C.young / (sy * sy);
+		const bool   degrades = law.degrades();
+		forLanes<W>([&](int l) {
+			double       xi[N], m[N], Dm[N], b[N];
+			const bool   flow      = flows(l);
+			const double softening = softeningOf(l), hardening = options ? law.hardening + slope[l] : law.hardening, f2 = f[l] * f[l];
+			backStressFree<S>(y, l, xi);
+			S::normal(xi, 1, m), S::elastic(C, m, Dm), S::back(xi, b);
+			const double q = flow ? H[l] * mDe[l] / (flow ? softening * dot<S>(m, Dm) + hardening * f2 : 1) : 0;
+			for (int k = 0; k < N; ++k)
+				dy[k][l] -= q * softening * Dm[k], dy[Y::eta + k][l] = q * law.hardening * b[k];
+			dy[Y::p][l] = q * f[l], dy[Y::dissipation][l] = q * f2;
+			if constexpr (options) {
+				// the compliance may grow by no more than the plastic work pays for
+				double sigma[N];
+				for (int k = 0; k < N; ++k)
+					sigma[k] = y[k][l];
+				const double heat = degrades ? q * f2 : 0, stored = complianceProduct<S>(C, sigma);
+				const double most  = stored > 0 ? 2 / (stored > 0 ? stored : 1) : 0;
+				const double grows = std::min(law.stiffnessDegradation * unit, most) * heat;
+				dy[Y::e][l] = unit * heat, dy[Y::compliance][l] = grows;
+				dy[Y::dissipation][l] = std::max(0., q * f2 - .5 * grows * stored);
+			}
+		});
 	}
 
-	/* Where along De the elastic stress reaches the reversal's f or leaves its side, if within step; else step. */
-	template <class S> double reachOfReversal(const Reversal<S>& reversal, const double* m, double f2, const double* De, double step)
-	{
-		double MDe[S::N];
-		S::normal(De, 1, MDe);
-		const double mDe = dot<S>(m, De), side = reversal.along(m), A = S::mises2(De), C = f2 - reversal.f * reversal.f, turn = reversal.along(MDe);
-		const double t = -C / (mDe + std::sqrt(std::max(0., mDe * mDe - A * C)));
-		return std::max(0., std::min({ step, t, turn < 0 ? -side / turn : step }));
-	}
-
-	/* Modified Euler pairs with error control, after Sloan. */
-	template <class S, bool options>
-	void boucWenIntegrate(const BoucWenParameters& law, const double* strain, Reversal<S>& reversal, double* y, int* subSteps)
+	/* Modified Euler pairs with error control, after Sloan, every lane in sub-steps of its own until the last has arrived. */
+	template <class S, bool options, int W>
+	void boucWenIntegrate(const BoucWenParameters& law, const Reals<W>* strain, Reversal<S, W>& reversal, Reals<W>* y, int* subSteps)
 	{
 		using Y         = BoucWenVector<S, options>;
 		constexpr int N = S::N, size = Y::size;
-		double        De[N], part[N], partStrain[N], dy1[size], dy2[size], euler[size], xi[N];
-		S::elastic(law.elastic, strain, De);
-
-		const double admitted = .25 * law.tolerance * law.tolerance * law.yieldStress * law.yieldStress; // of |dy2 - dy1|^2
-		double       done = 0, step = 1;
-		bool         failed = false;
-		while (done < 1) {
-			step           = std::min(step, 1 - done);
-			bool unloading = false, reached = false;
-			if (options && law.remembers()) {
-				double m[N];
+		const bool    remembers = options && law.remembers();
+		const double  admitted  = .25 * law.tolerance * law.tolerance * law.yieldStress * law.yieldStress; // of |dy2 - dy1|^2
+		// where H1 H2 is left out anyhow
+		const double small =
+			options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(1e-3 * law.tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
+		Reals<W> De[N], part[N], partStrain[N], dy1[size], dy2[size], euler[size], mDe1, mDe2, error2, accepted, radius, done {}, step, failed {};
+		forLanes<W>([&](int l) {
+			double e[N], d[N];
+			for (int k = 0; k < N; ++k)
+				e[k] = strain[k][l];
+			S::elastic(law.elastic, e, d);
+			for (int k = 0; k < N; ++k)
+				De[k][l] = d[k];
+			step[l] = 1;
+		});
+		for (;;) {
+			forLanes<W>([&](int l) { step[l] = std::min(step[l], 1 - done[l]); });
+			if (remembers) reversal.begin(law, y, De, done, step);
+			forLanes<W>([&](int l) {
 				for (int k = 0; k < N; ++k)
-					xi[k] = y[k] - y[Y::eta + k];
-				S::normal(xi, 1, m);
-				const double f2 = S::mises2(xi);
-				unloading       = dot<S>(m, De) < 0;
-				if (unloading && reversal.f == 0 && f2 > 0) reversal.f = reversal.least = std::sqrt(f2), std::copy(xi, xi + N, reversal.xi);
-				reversal.elastic = !unloading && reversal.f > 0 && std::isinf(law.reloading);
-				if (reversal.elastic) {
-					double scaled[N];
-					for (int k = 0; k < N; ++k)
-						scaled[k] = De[k] / (1 + y[Y::compliance]);
-					const double limit = reachOfReversal(reversal, m, f2, scaled, step);
-					reached            = limit < step;
-					step               = limit;
+					part[k][l] = step[l] * De[k][l], partStrain[k][l] = step[l] * strain[k][l];
+			});
+			boucWenRate<S, options>(law, small, reversal, y, partStrain, part, dy1, mDe1);
+			forLanes<W>([&](int l) {
+				for (int k = 0; k < size; ++k)
+					euler[k][l] = y[k][l] + dy1[k][l];
+			});
+			boucWenRate<S, options>(law, small, reversal, euler, partStrain, part, dy2, mDe2);
+
+			forLanes<W>([&](int l) {
+				const double elastic     = options ? 2 / (1 + y[options ? Y::compliance : 0][l]) : 2;
+				double       difference2 = 0, sum2 = 0;
+				for (int k = 0; k < 2 * N; ++k) {
+					const double difference = dy2[k][l] - dy1[k][l],
+						     sum        = dy2[k][l] + dy1[k][l] - (k < N ? elastic * part[k < N ? k : 0][l] : 0);
+					difference2 += difference * difference, sum2 += sum * sum;
 				}
-			}
-			for (int k = 0; k < N; ++k)
-				part[k] = step * De[k], partStrain[k] = step * strain[k];
-			boucWenRate<S, options>(law, reversal, y, partStrain, part, dy1);
-			for (int k = 0; k < size; ++k)
-				euler[k] = y[k] + dy1[k];
-			boucWenRate<S, options>(law, reversal, euler, partStrain, part, dy2);
+				// flow that vanishes in between, where loading and unloading meet, is not to be seen in the difference alone
+				const bool turns = (mDe1[l] < 0) != (mDe2[l] < 0);
+				error2[l]        = turns & (sum2 > difference2) ? sum2 : difference2;
+				const bool good  = (error2[l] <= admitted) | (step[l] <= 1e-9);
+				accepted[l]      = good ? 1 : 0;
+				for (int k = 0; k < size; ++k) {
+					const double next = y[k][l] + .5 * (dy1[k][l] + dy2[k][l]);
+					y[k][l]           = good ? next : y[k][l];
+				}
+			});
+			if (options && law.isotropic.active())
+				for (int l = 0; l < W; ++l)
+					radius[l] = law.isotropic.radius(law.yieldStress, y[Y::p][l]);
+			else
+				forLanes<W>([&](int l) { radius[l] = law.yieldStress; });
+			if (subSteps)
+				for (int l = 0; l < W; ++l)
+					*subSteps += done[l] < 1 && accepted[l] != 0;
+			if (remembers) reversal.end(y, done, accepted);
+			if (!(options && law.paper()))
+				forLanes<W>([&](int l) {
+					// f = sigma_y is a fixed point that the rounding of a sub-step may overshoot
+					double xi[N];
+					backStressFree<S>(y, l, xi);
+					const double f2     = S::mises2(xi);
+					const bool   over   = f2 > radius[l] * radius[l] * (1 + 2e-10);
+					const double excess = over ? 1 - radius[l] / std::sqrt(over ? f2 : 1) : 0;
+					for (int k = 0; k < N; ++k)
+						y[k][l] -= excess * xi[k];
+				});
 
-			double error2 = 0;
-			for (int k = 0; k < 2 * N; ++k)
-				error2 += (dy2[k] - dy1[k]) * (dy2[k] - dy1[k]);
-			const bool good = error2 <= admitted;
-			if (!good && step > 1e-9) {
-				step *= std::isfinite(error2) ? std::max(.1, .9 * std::sqrt(std::sqrt(admitted / error2))) : .1;
-				failed = true;
-				continue;
-			}
-			for (int k = 0; k < size; ++k)
-				y[k] += .5 * (dy1[k] + dy2[k]);
-			if (subSteps) ++*subSteps;
-
-			for (int k = 0; k < N; ++k)
-				xi[k] = y[k] - y[Y::eta + k];
-			const double f2 = S::mises2(xi), radius = options ? law.isotropic.radius(law.yieldStress, y[Y::p]) : law.yieldStress;
-			if (f2 > radius * radius * (1 + 2e-10) && !(options && law.paper())) {
-				// f = sigma_y is a fixed point that the rounding of a sub-step may overshoot
-				const double excess = 1 - radius / std::sqrt(f2);
-				for (int k = 0; k < N; ++k)
-					y[k] -= excess * xi[k];
-			}
-			if (options && law.remembers() && reversal.f > 0) {
-				double m[N];
-				S::normal(xi, 1, m);
-				if (unloading) reversal.least = std::sqrt(f2);
-				if (reached || (!unloading && f2 >= reversal.f * reversal.f) || !(reversal.along(m) > 0)) reversal.f = 0;
-			}
-			done = step < 1 - done ? done + step : 1;
-			if (reached)
-				step = 1;
-			else if (done < 1 && !failed)
-				step *= error2 > 0 ? std::min(2., .9 * std::sqrt(std::sqrt(admitted / error2))) : 2;
-			failed = false;
+			if (!anyLane<W>([&](int l) { return (accepted[l] == 0) | (step[l] < 1 - done[l]); })) return;
+			forLanes<W>([&](int l) {
+				const bool   good   = accepted[l] != 0;
+				const double factor = .9 * std::sqrt(std::sqrt(admitted / error2[l]));
+				const double shrink = step[l] * (factor > .1 ? factor : .1), grow = step[l] * (factor < 2 ? factor : 2); // .1 and 2 for NaN
+				const double next = done[l] + step[l], longer = failed[l] != 0 ? step[l] : grow, after = reversal.reached[l] != 0 ? 1 : longer;
+				const double arrived = step[l] < 1 - done[l] ? next : 1;
+				done[l]              = good ? arrived : done[l];
+				step[l]              = good ? after : shrink;
+				failed[l]            = good ? 0 : 1;
+			});
 		}
 	}
 } // namespace detail
 
-/* Integrates the law over a strain increment (engineering shear); sigma and the internal variables are updated. subSteps,
-where given, counts the sub-steps.
+/* Integrates the law over a strain increment (engineering shear) in every lane; sigma and the internal variables (tensors, then
+scalars) are updated, dissipation is added to. subSteps, where given, counts the sub-steps of all lanes.
 
 Sub-steps are modified Euler pairs: Sloan, IJNME 24 (1987) 893; Sloan, Abbo & Sheng, Eng. Comput. 18 (2001) 121. Half
 the difference of the two slopes' stresses, over sigma_y, estimates the error of the first-order member and is kept below
-a quarter of the tolerance; the second-order member is carried on. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
+a quarter of the tolerance; the second-order member is carried on. Between loading and unloading lambda' has a kink: it falls to zero
+and rises again, at gamma > beta, and the two slopes may then agree by chance. So there the greater one of difference and
+sum of the flows counts. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
 [0.1, 2], and does not grow right after a failure. Loading forgets errors, so that those of a path do not add up. */
-template <class S>
-void boucWenUpdate(const BoucWenParameters& law, const double* strain, double* sigma, double* internal, Response* response = nullptr, int* subSteps = nullptr)
+template <class S, int W>
+void boucWenUpdate(const BoucWenParameters& law, const Reals<W>* strain, Reals<W>* sigma, Reals<W>* internal, Reals<W>& dissipation, int* subSteps = nullptr)
 {
-	constexpr int       N = S::N;
-	detail::Reversal<S> reversal;
-	double*             scalars = internal + law.tensors() * N;
-	auto                run     = [&](auto options) {
+	constexpr int          N = S::N;
+	detail::Reversal<S, W> reversal;
+	Reals<W>*              scalars = internal + law.tensors() * N;
+	auto                   run     = [&](auto options) {
                 using Y = detail::BoucWenVector<S, options.value>;
-                double y[Y::size] {};
+                Reals<W> y[Y::size] {};
                 std::copy(sigma, sigma + N, y), std::copy(internal, internal + N, y + Y::eta);
-                y[Y::p] = scalars[0];
+                y[Y::p] = scalars[0], y[Y::dissipation] = dissipation;
                 if constexpr (options.value) {
                         if (law.degrades()) y[Y::e] = scalars[1], y[Y::compliance] = scalars[2];
                         if (law.remembers()) {
-                                const double* kept = scalars + law.scalars() - 2;
+                                const Reals<W>* kept = scalars + law.scalars() - 2;
                                 reversal.f = kept[0], reversal.least = kept[1], std::copy(internal + N, internal + 2 * N, reversal.xi);
                         }
                         if (law.paper()) std::copy(internal + N, internal + 2 * N, y + Y::strain);
                 }
                 detail::boucWenIntegrate<S, options.value>(law, strain, reversal, y, subSteps);
                 std::copy(y, y + N, sigma), std::copy(y + Y::eta, y + Y::eta + N, internal);
-                scalars[0] = y[Y::p];
-                if (response) response->dissipation += y[Y::dissipation];
+                scalars[0] = y[Y::p], dissipation = y[Y::dissipation];
                 if constexpr (options.value) {
                         if (law.degrades()) scalars[1] = y[Y::e], scalars[2] = y[Y::compliance];
                         if (law.remembers()) {
-                                double* kept = scalars + law.scalars() - 2;
+                                Reals<W>* kept = scalars + law.scalars() - 2;
                                 kept[0] = reversal.f, kept[1] = reversal.least, std::copy(reversal.xi, reversal.xi + N, internal + N);
                         }
                         if (law.paper()) std::copy(y + Y::strain, y + Y::strain + N, internal + N);

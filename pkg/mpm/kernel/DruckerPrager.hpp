@@ -22,36 +22,38 @@ struct DruckerPragerParameters {
 
 /* Backward Euler, in closed form: along the flow to the cone, or to its apex where that would pass it. All three normal
 stresses are components of S. p accumulates the equivalent deviatoric plastic strain. */
-template <class S> void druckerPragerReturn(const DruckerPragerParameters& law, const double* strain, double* sigma, double& p, Response& response)
+template <class S> void druckerPragerReturn(const DruckerPragerParameters& law, const double* strain, double* sigma, double& p, double& dissipation)
 {
 	static_assert(normals<S>() == 3);
 	const Hooke& C = law.elastic;
 	double       De[S::N];
 	S::elastic(C, strain, De);
-	for (int k = 0; k < S::N; ++k)
-		sigma[k] += De[k];
+	for (int c = 0; c < S::N; ++c)
+		sigma[c] += De[c];
 
 	const double eta = law.slope(law.internalFriction), etaPsi = law.slope(law.dilatancy), k = law.strength();
 	const double bulk = C.lame + 2 * C.shear / 3, q = std::sqrt(S::mises2(sigma)), P = (sigma[0] + sigma[1] + sigma[2]) / 3;
-	const double F = q + eta * P - k;
-	if (F <= 0) return;
+	const double F = q + eta * P - k, along = F / (3 * C.shear + bulk * eta * etaPsi);
 
-	double dp = F / (3 * C.shear + bulk * eta * etaPsi), dP = bulk * etaPsi * dp, scale = 1 - 3 * C.shear * dp / q;
-	if (!(scale >= 0)) // the apex
-		dp = q / (3 * C.shear), dP = P - k / eta, scale = 0;
+	// no branches: lanes take both ways
+	const bool   flows = F > 0, apex = flows & !(q > 3 * C.shear * along);
+	const double dp    = flows ? apex ? q / (3 * C.shear) : along : 0;
+	const double dP    = apex ? P - k / eta : bulk * etaPsi * dp;
+	const double scale = apex ? 0 : 1 - 3 * C.shear * dp / (flows ? q : 1);
 	for (int c = 0; c < S::N; ++c)
-		sigma[c] = scale * (sigma[c] - (c < 3 ? P : 0)) + (c < 3 ? P - dP : 0);
+		sigma[c] = flows ? scale * (sigma[c] - (c < 3 ? P : 0)) + (c < 3 ? P - dP : 0) : sigma[c];
 	p += dp;
-	response.dissipation += scale * q * dp + (P - dP) * dP / bulk;
+	dissipation += scale * q * dp + (P - dP) * dP / bulk;
 }
 
-template <class S> void druckerPragerUpdate(const DruckerPragerParameters& law, const double* strain, double* sigma, double& p, Response& response)
+template <class S, int W>
+void druckerPragerUpdate(const DruckerPragerParameters& law, const Reals<W>* strain, Reals<W>* sigma, Reals<W>& p, Responses<W>& response)
 {
-	auto law3 = [&](const double* e, double* s, double& p3, Response& r) { druckerPragerReturn<Solid>(law, e, s, p3, r); };
 	if constexpr (normals<S>() == 3)
-		druckerPragerReturn<S>(law, strain, sigma, p, response);
+		updatePoints<S>([&](auto&&... point) { druckerPragerReturn<S>(law, point...); }, strain, sigma, p, response.dissipation);
 	else
-		updateWithFreeNormals<S>(law.elastic, law3, strain, sigma, p, response);
+		updateWithFreeNormals<S>(
+			law.elastic, [&](auto&&... point) { druckerPragerReturn<Solid>(law, point...); }, strain, sigma, p, response);
 }
 
 } // namespace yade::mpm

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Response.hpp"
+#include "PointLaw.hpp"
 #include "StressState.hpp"
 #include <algorithm>
 
@@ -9,47 +9,65 @@ namespace yade::mpm {
 
 /* Carries an isotropic law, known in the components of Solid, over to a stress state whose missing normal stresses are
 zero. They all get the same strain increment e, the root of the stress that it causes there, sought between brackets by
-the rule of false position with Illinois' correction.
+the rule of false position with Illinois' correction, in every lane until the last has found it.
 
-update(strain, sigma, p, response) is the law in Solid; p its one internal variable. */
-template <class S, class Update> void updateWithFreeNormals(const Hooke& C, Update&& update, const double* strain, double* sigma, double& p, Response& response)
+update(strain, sigma, p, dissipation) is the law of one point in Solid; p its one internal variable. */
+template <class S, class Update, int W>
+void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* strain, Reals<W>* sigma, Reals<W>& p, Responses<W>& response)
 {
 	static_assert(normals<S>() < 3);
-	double   s[6], p3 = p;
-	Response r;
-	auto     freeStress = [&](double e) {
-                double full[6] = { e, e, e, 0, 0, 0 };
-                std::fill(s, s + 6, 0.);
-                for (int k = 0; k < S::N; ++k)
+	constexpr int N = S::N;
+	Reals<W>      full[6] {}, s[6] {}, p3, heat, goal, size, a, b, e, fa, fb, fe, width;
+	auto          freeStress = [&](const Reals<W>& trial, Reals<W>& f) {
+                for (Reals<W>& component : s)
+                        component = {};
+                for (int k = 0; k < 3; ++k)
+                        full[k] = trial;
+                for (int k = 0; k < N; ++k)
                         full[S::solid[k]] = strain[k], s[S::solid[k]] = sigma[k];
-                p3 = p, r = Response {};
-                update(full, s, p3, r);
-                return s[2];
+                p3 = p, heat = {};
+                updatePoints<Solid>(update, full, s, p3, heat);
+                f = s[2];
 	};
-	double size = 0, stress = 0, b = 0;
-	for (int k = 0; k < S::N; ++k)
-		size = std::max(size, std::abs(strain[k])), stress = std::max(stress, std::abs(sigma[k]));
-	for (int k = 0; k < normals<S>(); ++k)
-		b -= (normals<S>() == 1 ? C.poisson : C.poisson / (1 - C.poisson)) * strain[k];
+	const double modulus = C.lame + 2 * C.shear, ratio = normals<S>() == 1 ? C.poisson : C.poisson / (1 - C.poisson);
+	forLanes<W>([&](int l) {
+		double largest = 0, stress = 0, elastic = 0;
+		for (int k = 0; k < N; ++k)
+			largest = std::max(largest, std::abs(strain[k][l])), stress = std::max(stress, std::abs(sigma[k][l]));
+		for (int k = 0; k < normals<S>(); ++k)
+			elastic -= ratio * strain[k][l];
+		size[l] = largest, goal[l] = 1e-14 * modulus * largest + 1e-15 * stress, b[l] = elastic;
+	});
 
 	// from the elastic root outwards until the stress changes sign, then inwards
-	const double modulus = C.lame + 2 * C.shear, goal = 1e-14 * modulus * size + 1e-15 * stress;
-	double       fb = freeStress(b), a = b, fa = fb, width = std::abs(fb) / modulus;
-	while (std::abs(fb) > goal && fb * fa > 0 && std::isfinite(width))
-		a = b, fa = fb, b -= std::copysign(width, fa), width *= 2, fb = freeStress(b);
-	for (int iteration = 0; iteration < 200 && std::abs(fb) > goal && std::abs(b - a) > 1e-16 * size; ++iteration) {
-		const double e = b - fb * (b - a) / (fb - fa), fe = freeStress(e);
-		if (fe * fb < 0)
-			a = b, fa = fb;
-		else
-			fa *= .5;
-		b = e, fb = fe;
+	freeStress(b, fb);
+	a = b, fa = fb;
+	forLanes<W>([&](int l) { width[l] = std::abs(fb[l]) / modulus; });
+	auto outwards = [&](int l) { return (std::abs(fb[l]) > goal[l]) & (fb[l] * fa[l] > 0) & (width[l] < 1e300); };
+	while (anyLane<W>(outwards)) {
+		forLanes<W>([&](int l) {
+			const bool go = outwards(l);
+			a[l] = go ? b[l] : a[l], fa[l] = go ? fb[l] : fa[l];
+			b[l] -= go ? std::copysign(width[l], fa[l]) : 0;
+			width[l] *= go ? 2 : 1;
+		});
+		freeStress(b, fb);
 	}
-	response.freeStrain += b;
-	for (int k = 0; k < S::N; ++k)
+	auto inwards = [&](int l) { return (std::abs(fb[l]) > goal[l]) & (std::abs(b[l] - a[l]) > 1e-16 * size[l]); };
+	for (int iteration = 0; iteration < 200 && anyLane<W>(inwards); ++iteration) {
+		forLanes<W>([&](int l) { e[l] = inwards(l) ? b[l] - fb[l] * (b[l] - a[l]) / (fb[l] - fa[l]) : b[l]; });
+		freeStress(e, fe);
+		forLanes<W>([&](int l) {
+			const bool go = inwards(l), across = fe[l] * fb[l] < 0;
+			a[l]  = go & across ? b[l] : a[l];
+			fa[l] = go ? (across ? fb[l] : .5 * fa[l]) : fa[l];
+			b[l] = e[l], fb[l] = fe[l];
+		});
+	}
+	for (int k = 0; k < N; ++k)
 		sigma[k] = s[S::solid[k]];
 	p = p3;
-	response.dissipation += r.dissipation;
+	forLanes<W>([&](int l) { response.freeStrain[l] += b[l], response.dissipation[l] += heat[l]; });
 }
 
 } // namespace yade::mpm

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Hardening.hpp"
-#include "Response.hpp"
+#include "Reals.hpp"
 #include "StressState.hpp"
 
 namespace yade::mpm {
@@ -51,38 +51,69 @@ namespace detail {
 	}
 } // namespace detail
 
-/* Backward Euler over a strain increment (engineering shear): radial return, and in the subspace of imposed zero normal
-stresses Simo & Taylor, IJNME 22 (1986) 649. sigma, eta and p are updated.
+/* Backward Euler over a strain increment (engineering shear) in every lane: radial return, and in the subspace of imposed zero
+normal stresses Simo & Taylor, IJNME 22 (1986) 649. sigma, eta and p are updated, dissipation is added to.
 
-With g = dp/f at the end of the step, xi = (I + g (D M + H))^-1 xi_trial, and g is the root of f(g) = R(p + g f(g)), whose
-difference falls and is convex: Newton's method from g = 0 rises to it. */
-template <class S> void j2Update(const J2Parameters& law, const double* strain, double* sigma, double* eta, double& p, Response* response)
+With g = dp/f at the end of the step, xi = (I + g (D M + H))^-1 xi_trial, and g is the root of 1/f(g) = 1/R(p + g f(g)). The
+difference rises and is concave: Newton's method from g = 0 rises to the root, in one step where xi does not split and R is constant. */
+template <class S, int W> void j2Update(const J2Parameters& law, const Reals<W>* strain, Reals<W>* sigma, Reals<W>* eta, Reals<W>& p, Reals<W>& dissipation)
 {
-	constexpr int N = S::N;
-	double        De[N], xi[N], A, B;
-	S::elastic(law.elastic, strain, De);
-	for (int k = 0; k < N; ++k)
-		sigma[k] += De[k], xi[k] = sigma[k] - eta[k];
-	detail::splitMises<S>(xi, A, B);
-	const double start = law.isotropic.radius(law.yieldStress, p);
-	if (A + B <= start * start) return;
+	constexpr int N  = S::N;
+	const double  kA = detail::splitModulus<S>(law.elastic) + law.hardening, kB = 3 * law.elastic.shear + law.hardening;
+	Reals<W>      A, B, start, R, slope, f, g;
+	auto          radius = [&](auto&& plastic) {
+                if (law.isotropic.active())
+                        for (int l = 0; l < W; ++l)
+                                R[l] = law.isotropic.radius(law.yieldStress, plastic(l)), slope[l] = law.isotropic.slope(plastic(l));
+                else
+                        forLanes<W>([&](int l) { R[l] = law.yieldStress, slope[l] = 0; });
+	};
+	forLanes<W>([&](int l) {
+		double e[N], De[N], xi[N];
+		for (int k = 0; k < N; ++k)
+			e[k] = strain[k][l];
+		S::elastic(law.elastic, e, De);
+		for (int k = 0; k < N; ++k)
+			sigma[k][l] += De[k], xi[k] = sigma[k][l] - eta[k][l];
+		detail::splitMises<S>(xi, A[l], B[l]);
+		g[l] = 0;
+	});
+	radius([&](int l) { return p[l]; });
+	start      = R;
+	auto flows = [&](int l) { return A[l] + B[l] > start[l] * start[l]; };
+	if (!anyLane<W>(flows)) return;
 
-	const double kA = detail::splitModulus<S>(law.elastic) + law.hardening, kB = 3 * law.elastic.shear + law.hardening;
-	double       g = 0, f = 0, R = 0;
 	for (int iteration = 0; iteration < 100; ++iteration) {
-		const double a = 1 / (1 + g * kA), b = 1 / (1 + g * kB);
-		f = std::sqrt(A * a * a + B * b * b), R = law.isotropic.radius(law.yieldStress, p + g * f);
-		if (f - R <= 1e-14 * R) break;
-		const double df = -(A * a * a * a * kA + B * b * b * b * kB) / f;
-		g -= (f - R) / (df - law.isotropic.slope(p + g * f) * (f + g * df));
+		forLanes<W>([&](int l) {
+			const double a = 1 / (1 + g[l] * kA), b = 1 / (1 + g[l] * kB);
+			f[l] = std::sqrt(A[l] * a * a + B[l] * b * b);
+		});
+		radius([&](int l) { return p[l] + g[l] * f[l]; });
+		auto open = [&](int l) { return flows(l) & (f[l] - R[l] > 1e-14 * R[l]); };
+		if (!anyLane<W>(open)) break;
+		forLanes<W>([&](int l) {
+			const double a = 1 / (1 + g[l] * kA), b = 1 / (1 + g[l] * kB), f2 = f[l] * f[l];
+			const double fall = A[l] * a * a * a * kA + B[l] * b * b * b * kB; // -f f'(g)
+			const double rise = fall * R[l] * R[l] + slope[l] * (f2 - g[l] * fall) * f2;
+			const bool   go   = open(l);
+			const double gain = f2 * R[l] * (f[l] - R[l]) / (go ? rise : 1);
+			g[l] += go ? gain : 0;
+		});
 	}
-	detail::scaleParts<S>(1 / (1 + g * kA), 1 / (1 + g * kB), xi);
-	double back[N];
-	S::back(xi, back);
-	for (int k = 0; k < N; ++k)
-		eta[k] += g * law.hardening * back[k], sigma[k] = xi[k] + eta[k];
-	p += g * f;
-	if (response) response->dissipation += .5 * (start + R) * g * f;
+	forLanes<W>([&](int l) {
+		double     xi[N], back[N];
+		const bool flow = flows(l);
+		for (int k = 0; k < N; ++k)
+			xi[k] = sigma[k][l] - eta[k][l];
+		detail::scaleParts<S>(1 / (1 + g[l] * kA), 1 / (1 + g[l] * kB), xi);
+		S::back(xi, back);
+		for (int k = 0; k < N; ++k) {
+			eta[k][l] += g[l] * law.hardening * back[k];
+			sigma[k][l] = flow ? xi[k] + eta[k][l] : sigma[k][l];
+		}
+		p[l] += g[l] * f[l];
+		dissipation[l] += .5 * (start[l] + R[l]) * g[l] * f[l];
+	});
 }
 
 } // namespace yade::mpm

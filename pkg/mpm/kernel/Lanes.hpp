@@ -2,17 +2,14 @@
 #pragma once
 
 #include "Points.hpp"
+#include "Reals.hpp"
 
 namespace yade::mpm {
 
 /* The passes work on blocks of points, one lane a point. Lanes beyond the last point of a block repeat it, so that a point's
 result does not depend on how many share its block. */
 constexpr int lanes = 8;
-struct alignas(64) Lanes {
-	double  value[lanes];
-	double& operator[](int l) { return value[l]; }
-	double  operator[](int l) const { return value[l]; }
-};
+using Lanes         = Reals<lanes>;
 
 struct Block {
 	std::size_t first;
@@ -24,13 +21,8 @@ template <class Visit> void forEachBlock(std::size_t begin, std::size_t end, Vis
 	for (std::size_t p = begin; p < end; p += lanes)
 		visit(Block { p, int(end - p < lanes ? end - p : lanes) });
 }
-template <class Work> void forLanes(Work&& work)
-{
-#pragma omp simd
-	for (int l = 0; l < lanes; ++l)
-		work(l);
-}
-inline void load(const Column& column, Block block, Lanes& x)
+template <class Work> void forLanes(Work&& work) { forLanes<lanes>(work); }
+inline void                load(const Column& column, Block block, Lanes& x)
 {
 	const double* from = column.data() + block.first;
 	if (block.count == lanes)

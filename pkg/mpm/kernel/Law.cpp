@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Law.hpp"
+#include "UpdateStress.hpp"
 #include <sstream>
 
 namespace yade::mpm {
@@ -85,5 +86,31 @@ std::string validate(const Law& law)
 	}
 	return c.message;
 }
+
+template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal, Response* response)
+{
+	constexpr int N       = S::N;
+	const int     columns = Internals::of(law).columns(N);
+	Reals<1>      e[N], s[N], state[Internals::most(N)];
+	Responses<1>  told;
+	for (int k = 0; k < N; ++k)
+		e[k][0] = strain[k], s[k][0] = sigma[k];
+	for (int k = 0; k < columns; ++k)
+		state[k][0] = internal[k];
+	updateStressLanes<S>(law, e, s, state, told, response != nullptr);
+	for (int k = 0; k < N; ++k)
+		sigma[k] = s[k][0];
+	for (int k = 0; k < columns; ++k)
+		internal[k] = state[k][0];
+	if (response) response->dissipation += told.dissipation[0], response->freeStrain += told.freeStrain[0];
+}
+
+template void updateStress<Uniaxial>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<PlaneStress>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<PlaneStrain>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<Solid>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<FreeNormals<0>>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<FreeNormals<1>>(const Law&, const double*, double*, double*, Response*);
+template void updateStress<FreeNormals<2>>(const Law&, const double*, double*, double*, Response*);
 
 } // namespace yade::mpm

@@ -48,58 +48,27 @@ struct Internals {
 		return {};
 	}
 	int columns(int components) const { return tensors * components + scalars; }
+	/* Of the law that has most: two tensors; p, energy and compliance, two stresses of a reversal. */
+	static constexpr int most(int components) { return 2 * components + 5; }
 };
 
+/* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. Adds
+to response, where given. Compiled for the stress states that Law.cpp lists. */
+template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal, Response* response = nullptr);
+
 namespace detail {
-	/* Factor by which the elastic compliance has grown. */
-	template <class S> double complianceGrowth(const Law& law, const double* internal)
+	/* Factor by which the elastic compliance has grown; internal(k) is the k-th internal variable. */
+	template <class S, class Get> double complianceGrowth(const Law& law, Get&& internal)
 	{
 		if (law.kind != Law::Kind::boucWen || !law.boucWen.degrades()) return 1;
-		return 1 + internal[law.boucWen.tensors() * S::N + 2];
+		return 1 + internal(law.boucWen.tensors() * S::N + 2);
 	}
 } // namespace detail
-
-/* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. Adds
-to response, where given. */
-template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal, Response* response = nullptr)
-{
-	constexpr int kept   = normals<S>();
-	double        growth = 0, trace = 0;
-	if (response && kept < 3 && law.kind != Law::Kind::druckerPrager) {
-		growth = detail::complianceGrowth<S>(law, internal);
-		for (int k = 0; k < kept; ++k)
-			trace -= sigma[k];
-	}
-	switch (law.kind) {
-		case Law::Kind::elastic: {
-			double De[S::N];
-			S::elastic(law.elastic, strain, De);
-			for (int k = 0; k < S::N; ++k)
-				sigma[k] += De[k];
-			break;
-		}
-		case Law::Kind::boucWen: boucWenUpdate<S>(law.boucWen, strain, sigma, internal, response); break;
-		case Law::Kind::j2: j2Update<S>(law.j2, strain, sigma, internal, internal[S::N], response); break;
-		case Law::Kind::druckerPrager: {
-			Response unasked;
-			druckerPragerUpdate<S>(law.druckerPrager, strain, sigma, internal[0], response ? *response : unasked);
-			return;
-		}
-	}
-	if (response && kept < 3) {
-		// flow keeps the volume: tr eps = (1 - 2 nu)/E tr sigma, and the free normals share what is left of it
-		double keptStrain = 0;
-		for (int k = 0; k < kept; ++k)
-			trace += sigma[k], keptStrain += strain[k];
-		growth = .5 * (growth + detail::complianceGrowth<S>(law, internal));
-		response->freeStrain += (growth * (1 - 2 * law.elastic.poisson) / law.elastic.young * trace - keptStrain) / (3 - kept);
-	}
-}
 
 /* Energies a volume [J/m3] that a point holds and can give back. */
 template <class S> double elasticEnergy(const Law& law, const double* sigma, const double* internal)
 {
-	return .5 * detail::complianceGrowth<S>(law, internal) * complianceProduct<S>(law.elastic, sigma);
+	return .5 * detail::complianceGrowth<S>(law, [&](int k) { return internal[k]; }) * complianceProduct<S>(law.elastic, sigma);
 }
 template <class S> double hardeningEnergy(const Law& law, const double* internal)
 {

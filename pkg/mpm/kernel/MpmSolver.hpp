@@ -744,46 +744,42 @@ private:
 			if constexpr (dim > 2) G[d * dim + 2][l] = m_stressControl.dt * gather<2>(w, v[d]);
 		}
 	}
-	/* The stress update of a block at once, where the points share a law that can be; else returns false and does nothing. */
+	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
 	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[dim * dim])
 	{
-		const int  material = m_points.material[block.first];
-		const Law& law      = m_laws[material];
-		const bool thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning;
-		const bool elastic  = law.kind == Law::Kind::elastic;
-		if (m_stressControl.trackEnergy || thinning || !(elastic || (law.kind == Law::Kind::boucWen && law.boucWen.plain()))) return false;
+		const int material = m_points.material[block.first];
+		if (m_stressControl.trackEnergy) return false;
 		for (int l = 1; l < block.count; ++l)
 			if (m_points.material[block.first + std::size_t(l)] != material) return false;
 
-		Lanes strain[N], sigma[N], eta[N], p, F[dim * dim];
+		const Law&  law      = m_laws[material];
+		const int   columns  = Internals::of(law).columns(N);
+		const bool  thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning, follows = !m_points.freeStrain.empty();
+		LawBlock<S> b;
+		b.respond = thinning || follows;
+		std::copy(G, G + dim * dim, b.G);
 		for (int k = 0; k < N; ++k)
-			load(m_points.stress[k], block, sigma[k]);
-		for (int k = 0; k < N && !elastic; ++k)
-			load(m_points.internal[k], block, eta[k]);
-		if (!elastic) load(m_points.internal[N], block, p);
+			load(m_points.stress[k], block, b.sigma[k]);
+		for (int k = 0; k < columns; ++k)
+			load(m_points.internal[k], block, b.internal[k]);
 		for (int k = 0; k < dim * dim; ++k)
-			load(m_points.deformation[k], block, F[k]);
+			load(m_points.deformation[k], block, b.F[k]);
 
-		if (!m_stressControl.largeStrain)
-			incrementLanes<S, false, false>(G, strain, F, sigma, eta);
-		else if (elastic)
-			incrementLanes<S, true, false>(G, strain, F, sigma, eta);
-		else
-			incrementLanes<S, true, true>(G, strain, F, sigma, eta);
-		if (elastic)
-			elasticLanes<S>(law.elastic, strain, sigma);
-		else
-			boucWenLanes<S>(law.boucWen, strain, sigma, eta, p);
+		updateBlock(m_instructions, law, m_stressControl.largeStrain, b);
 
 		for (int k = 0; k < N; ++k)
-			store(sigma[k], block, m_points.stress[k]);
-		for (int k = 0; k < N && !elastic; ++k)
-			store(eta[k], block, m_points.internal[k]);
-		if (!elastic) store(p, block, m_points.internal[N]);
+			store(b.sigma[k], block, m_points.stress[k]);
+		for (int k = 0; k < columns; ++k)
+			store(b.internal[k], block, m_points.internal[k]);
 		for (int k = 0; k < dim * dim; ++k)
-			store(F[k], block, m_points.deformation[k]);
-		for (int l = 0; l < block.count; ++l)
-			if (!(determinantOf(F, l) > 0) && m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(block.first) + l;
+			store(b.F[k], block, m_points.deformation[k]);
+		for (int l = 0; l < block.count; ++l) {
+			const std::size_t p = block.first + std::size_t(l);
+			const double      e = b.response.freeStrain[l];
+			if (follows) m_points.freeStrain[p] += e;
+			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * e) / (1 - .5 * e);
+			if (!(determinantOf(b.F, l) > 0) && m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(p);
+		}
 		return true;
 	}
 	static void displacementGradient(const Weights& w, const Patch (&v)[dim], double dt, double (&G)[dim * dim])
@@ -799,11 +795,10 @@ private:
 	}
 	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[dim * dim])
 	{
-		constexpr int   maxInternal = 64;
-		const Law&      law         = m_laws[m_points.material[p]];
-		const Internals layout      = Internals::of(law);
-		const int       columns     = layout.columns(N);
-		double          sigma[N], internal[maxInternal], F[dim * dim];
+		const Law&      law     = m_laws[m_points.material[p]];
+		const Internals layout  = Internals::of(law);
+		const int       columns = layout.columns(N);
+		double          sigma[N], internal[Internals::most(N)], F[dim * dim];
 		for (int k = 0; k < N; ++k)
 			sigma[k] = m_points.stress[k][p];
 		for (int k = 0; k < columns; ++k)
