@@ -11,13 +11,15 @@ namespace yade::mpm {
 
 /* Strain increments from G = dt grad v; F advances, and sigma and eta turn with the material. */
 template <class S, bool largeStrain, bool back>
-void incrementLanes(const Lanes (&G)[S::dim * S::dim], Lanes (&strain)[S::N], Lanes (&F)[S::dim * S::dim], Lanes (&sigma)[S::N], Lanes (&eta)[S::N])
+void incrementLanes(const Lanes (&G)[gradients<S>], Lanes (&strain)[S::N], Lanes (&F)[S::dim * S::dim], Lanes (&sigma)[S::N], Lanes (&eta)[S::N])
 {
 	forLanes([&](int l) {
 		constexpr int dim2 = S::dim * S::dim;
-		double        g[dim2], f[dim2], s[S::N];
+		double        g[gradients<S>], f[dim2], s[S::N];
+		for (int k = 0; k < gradients<S>; ++k)
+			g[k] = G[k][l];
 		for (int k = 0; k < dim2; ++k)
-			g[k] = G[k][l], f[k] = F[k][l];
+			f[k] = F[k][l];
 		Increment<S> increment;
 		if (largeStrain) {
 			increment.large(g);
