@@ -147,28 +147,26 @@ TEST(AxisymmetricPatchTest, QuadratureAtTheAxis)
 /* Uniform stress s I does not accelerate a body between walls, and presses s times the current areas on them. */
 TEST(AxisymmetricPatchTest, UniformStressRests)
 {
-	for (ShapeKind shape : { ShapeKind::linear, ShapeKind::quadratic, ShapeKind::cubic })
-		for (double inner : { 0., .5 }) {
-			const double tolerance = shape == ShapeKind::linear ? 1e-12 : 2e-3, atAxis = shape == ShapeKind::linear ? 1e-12 : 1. / 48;
-			SCOPED_TRACE(std::string(name(shape)) + (inner > 0 ? " tube" : " cylinder"));
-			Expansion e(shape, Scheme::musl, true, inner, Scene::elastic(1e5, .3, 1000));
-			for (auto& velocity : e.scene.points.velocity)
-				std::fill(velocity.begin(), velocity.end(), 0.);
-			for (std::size_t k = 0; k < 3; ++k)
-				std::fill(e.scene.points.stress[k].begin(), e.scene.points.stress[k].end(), 100.);
-			for (Wall& wall : e.scene.walls)
-				wall.velocity = { 0, 0, 0 };
-			e.scene.run(3);
-			for (const auto& velocity : e.scene.points.velocity)
-				for (double v : velocity)
-					ASSERT_NEAR(v, 0, atAxis * 3 * .001 * 100 / (1000 * .25)); // of dt s/(rho h)
-			const double area[4] = { 0, 2 * pi * e.R * e.L, pi * (1 - inner * inner), pi * (1 - inner * inner) };
-			for (std::size_t w = 1; w < 4; ++w)
-				EXPECT_NEAR(e.scene.walls[w].force[w / 2], e.scene.walls[w].side * 100 * area[w], tolerance * 100 * area[w]);
-			if (inner > 0) {
-				EXPECT_NEAR(e.scene.walls[0].force[0], 100 * 2 * pi * inner * e.L, tolerance * 100 * 2 * pi * inner * e.L);
-			}
-		}
+	for (ShapeKind shape : { ShapeKind::linear, ShapeKind::quadratic, ShapeKind::cubic }) {
+		SCOPED_TRACE(name(shape));
+		const bool   exact  = shape == ShapeKind::linear;
+		const double atAxis = exact ? 1e-12 : 1. / 48,
+			     atWall = exact ? 1e-12 : 1.5 * .25 / 48; // h/(48 R) of the force, and half of it more at a quadratic knot
+		Expansion e(shape, Scheme::musl, true, 0, Scene::elastic(1e5, .3, 1000));
+		for (auto& velocity : e.scene.points.velocity)
+			std::fill(velocity.begin(), velocity.end(), 0.);
+		for (std::size_t k = 0; k < 3; ++k)
+			std::fill(e.scene.points.stress[k].begin(), e.scene.points.stress[k].end(), 100.);
+		for (Wall& wall : e.scene.walls)
+			wall.velocity = { 0, 0, 0 };
+		e.scene.run(3);
+		for (const auto& velocity : e.scene.points.velocity)
+			for (double v : velocity)
+				ASSERT_NEAR(v, 0, atAxis * 3 * .001 * 100 / (1000 * .25)); // of dt s/(rho h)
+		const double area[4] = { 0, 2 * pi * e.R * e.L, pi, pi };
+		for (std::size_t w = 1; w < 4; ++w)
+			EXPECT_NEAR(e.scene.walls[w].force[w / 2], e.scene.walls[w].side * 100 * area[w], atWall * 100 * area[w]);
+	}
 }
 
 /* Manufactured solution: u_r = G R (1 - R^2) s(t), u_z = G sin(pi Z) s(t), s = sin(pi c t), in the unit cylinder between slip
