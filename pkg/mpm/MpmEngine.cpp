@@ -31,9 +31,9 @@ namespace {
 
 	mpm::Analysis analysisOf(const std::string& name)
 	{
-		if (name == "axisymmetric") refuse(self, "analysis", "'axisymmetric'", "this version has 'planeStress', 'planeStrain' and '3d'");
 		return choose<mpm::Analysis>("analysis", name,
-			{ { "planeStress", mpm::Analysis::planeStress }, { "planeStrain", mpm::Analysis::planeStrain }, { "3d", mpm::Analysis::solid } });
+			{ { "planeStress", mpm::Analysis::planeStress }, { "planeStrain", mpm::Analysis::planeStrain },
+				{ "axisymmetric", mpm::Analysis::axisymmetric }, { "3d", mpm::Analysis::solid } });
 	}
 	mpm::ShapeKind shapeOf(const std::string& name)
 	{
@@ -119,11 +119,12 @@ mpm::StepControl MpmEngine::prepare()
 		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
 			[](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
 		checkEngineOrder();
-	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == thinning) m_points->finish();
+	const bool stretch = thinning || analysisKind == mpm::Analysis::axisymmetric;
+	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretch) m_points->finish();
 	m_points->large = largeStrain;
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
-	prepareWalls(dim);
+	prepareWalls(dim, analysisKind == mpm::Analysis::axisymmetric);
 	prepareSolver();
 
 	mpm::StepControl control;
@@ -138,7 +139,7 @@ mpm::StepControl MpmEngine::prepare()
 	return control;
 }
 
-void MpmEngine::prepareWalls(int dim)
+void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 {
 	std::vector<mpm::Wall>& kernelWalls = m_points->runtime.walls;
 	kernelWalls.resize(walls.size());
@@ -154,6 +155,19 @@ void MpmEngine::prepareWalls(int dim)
 				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
+	if (!axisymmetric) return;
+	bool inner = false;
+	for (const mpm::Wall& wall : kernelWalls) {
+		if (wall.axis != 0) continue;
+		inner = inner || wall.side > 0;
+		require(wall.position > 0 || (wall.position == 0 && wall.side > 0 && wall.kind == mpm::Wall::Kind::slip), self, "walls",
+			"a wall normal to x at x = " + std::to_string(wall.position),
+			"in axisymmetry x is the radius and the axis is a plane of symmetry without a wall; place radial walls at x > 0");
+	}
+	if (inner) return;
+	mpm::Wall axis;
+	axis.kind = mpm::Wall::Kind::slip;
+	kernelWalls.push_back(axis);
 }
 
 void MpmEngine::prepareSolver()
@@ -173,7 +187,7 @@ void MpmEngine::prepareSolver()
 		m_checkedCount = 0;
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
-		checkPoints(mpm::dimension(analysisKind));
+		checkPoints(analysisKind);
 		m_checkedCount   = points.count();
 		m_points->filled = false;
 		m_checkedFor.clear();
@@ -187,20 +201,26 @@ void MpmEngine::prepareSolver()
 		internals  = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
-	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning, m_bodies > 0, scene->trackEnergy, freeNormal);
+	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning || analysisKind == mpm::Analysis::axisymmetric, m_bodies > 0,
+		scene->trackEnergy, freeNormal);
 }
 
-void MpmEngine::checkPoints(int dim) const
+void MpmEngine::checkPoints(mpm::Analysis kind) const
 {
+	const int          dim    = mpm::dimension(kind);
 	const mpm::Points& points = m_points->points;
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		const std::string name = "material point " + std::to_string(points.id[p]);
 		require(points.mass[p] > 0 && std::isfinite(points.mass[p]), name, "mass", points.mass[p], "give its material a density > 0 before mpm.fill()");
 		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p],
 			"give mpm.fill() a spacing > 0 and a thickness > 0");
-		if (dim == 2)
+		if (kind == mpm::Analysis::axisymmetric) {
+			require(points.thickness[p] < 0, name, "thickness", points.thickness[p],
+				"an axisymmetric analysis needs rings: mpm.fill(..., axisymmetric=True)");
+			require(points.position[0][p] > 0, name, "position[0]", points.position[0][p], "x is the radius; place points at x > 0 [m]");
+		} else if (dim == 2)
 			require(points.thickness[p] > 0, name, "thickness", points.thickness[p],
-				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]");
+				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m] (< 0 here: rings of an axisymmetric one)");
 		else
 			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
 		if (dim == 2)
@@ -405,7 +425,7 @@ void MpmEngine::readBodies()
 			points.position[std::size_t(d)][p] = m_links[std::size_t(points.id[p])].state->pos[d];
 	if (erased) m_points->dropErased(*scene->bodies);
 	m_solver->pointsChanged();
-	checkPoints(mpm::dimension(analysisOf(analysis)));
+	checkPoints(analysisOf(analysis));
 }
 
 void MpmEngine::writeBodies()

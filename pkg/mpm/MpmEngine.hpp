@@ -19,7 +19,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmEngine, GlobalEngine, "Explicit material point method (Sulsky, Chen & Schreyer, CMAME 118 (1994) 179; eqs. 12-16 of Sofianos & Koumousis, COMPDYN 2017): moves the material points that :yref:`mpm.fill` has made by solving the momentum equation on a background grid each step. External forces are those that YADE has collected on the points' bodies when this engine runs, so it stands after ForceResetter and the engines that apply forces. The grid follows the points.",
 		((Real, cellSize, NaN, , "Edge of a grid cell, > 0 [m]; between two parallel walls stretched to fit a whole number of cells. Mandatory. Two points a cell and axis are usual: twice the spacing of mpm.fill."))
-		((std::string, analysis, "planeStress", , "'planeStress', 'planeStrain' (points with a thickness, moving in x and y) or '3d' (points without)."))
+		((std::string, analysis, "planeStress", , "'planeStress', 'planeStrain' (points with a thickness, moving in x and y), 'axisymmetric' (x the radius, y along the axis; points filled with axisymmetric=True stand for full rings, and so do masses, forces on bodies, contacts and reactions; the axis x = 0 is a plane of symmetry without a wall) or '3d'."))
 		((std::string, shape, "cubic", , "Shape functions: 'linear', 'gimp' (uniform GIMP), 'quadratic' or 'cubic' B-splines."))
 		((std::string, scheme, "MUSL", , "When stress is updated: 'USF' (first), 'USL' (last), 'MUSL' (last, with nodal velocities mapped once more from the points)."))
 		((Real, flip, 1, , "Part of the velocity increment that is FLIP, in [0, 1] [-]: 1 adds nodal velocity increments to the points and does not dissipate; 0 replaces the points' velocities by the grid's (PIC) and dissipates strongly."))
@@ -55,10 +55,10 @@ private:
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
 	mpm::StepControl             prepare();
-	void                         prepareWalls(int dim);
+	void                         prepareWalls(int dim, bool axisymmetric);
 	void                         prepareSolver();
 	std::unique_lock<std::mutex> attach();
-	void                         checkPoints(int dim) const;
+	void                         checkPoints(mpm::Analysis kind) const;
 	void                         checkGimp() const;
 	void                         checkEngineOrder();
 	bool                         checkClocks() const;

@@ -230,7 +230,8 @@ namespace {
 	constexpr int subdomainOfPoints = 1;
 } // namespace
 
-py::object MpmPoints::append(py::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies)
+py::object MpmPoints::append(
+	py::object positions, Real spacing, Real thickness, bool ring, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies)
 {
 	const DoubleBuffer                buffer(positions);
 	const std::lock_guard<std::mutex> lock(mutex);
@@ -239,14 +240,15 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 
 	std::size_t index = std::size_t(std::find(materials.begin(), materials.end(), material) - materials.begin());
 	if (index == materials.size()) materials.push_back(material);
-	const Real volume = thickness > 0 ? spacing * spacing * thickness : spacing * spacing * spacing, mass = material->density * volume;
 
 	BodyContainer& container = *Omega::instance().getScene()->bodies;
 	dropErased(container); // ids of erased bodies are given again
 	py::list ids;
 	for (std::size_t k = 0; k + 2 < buffer.size(); k += 3) {
 		const Vector3r x(buffer.data()[k], buffer.data()[k + 1], buffer.data()[k + 2]);
-		int            id = 0;
+		int            id    = 0;
+		const Real     depth = ring ? 2 * M_PI * x[0] : thickness > 0 ? thickness : spacing, volume = spacing * spacing * depth;
+		const Real     mass = material->density * volume;
 		if (bodies) {
 			const shared_ptr<MpmState> state(new MpmState);
 			const shared_ptr<Sphere>   sphere(new Sphere);
@@ -264,7 +266,7 @@ py::object MpmPoints::append(py::object positions, Real spacing, Real thickness,
 			id = state->pointId = container.insert(body);
 		} else
 			id = nextBodyless--;
-		points.append(id, int(index), x.data(), velocity.data(), mass, volume, spacing, thickness);
+		points.append(id, int(index), x.data(), velocity.data(), mass, volume, spacing, ring ? -depth : thickness);
 		ids.append(id);
 	}
 	++points.generation;

@@ -83,9 +83,10 @@ public:
 	Real     volume(std::size_t p) const;
 	Real     vonMises(std::size_t p) const;
 
-	/* For py/mpm: adds points at positions (buffer of N x 3 doubles) and, if asked, a body for each; returns their ids. */
-	::boost::python::object append(
-		::boost::python::object positions, Real spacing, Real thickness, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies);
+	/* For py/mpm: adds points at positions (buffer of N x 3 doubles), of a thickness (0: 3D) or as rings about x = 0, and, if asked, a body for each;
+	 * returns their ids. */
+	::boost::python::object append(::boost::python::object positions, Real spacing, Real thickness, bool ring, const shared_ptr<Material>& material,
+		const Vector3r& velocity, bool bodies);
 	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
 	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */

@@ -24,10 +24,10 @@ public:
 		,
 		createIndex();
 		,
-		.add_property("stress", &MpmState::stress, "Cauchy stress [Pa], 3x3, tension positive.")
+		.add_property("stress", &MpmState::stress, "Cauchy stress [Pa], 3x3, tension positive. In axisymmetry x is radial, y axial and z circumferential.")
 		.add_property("strain", &MpmState::strain, "Strain [-], 3x3 with tensorial shear: logarithmic, ln(F F^T)/2, in large strain, the sum of the increments sym(grad v) dt in small strain. In plane stress zz is the accumulated strain of the free normal.")
 		.add_property("backStress", &MpmState::backStress, "Back stress [Pa] of the material's law, 3x3 (zero for an elastic material). In plane stress it stands in the subspace with zero zz: the relative stress is stress - backStress.")
-		.add_property("F", &MpmState::deformation, "Deformation gradient [-], 3x3. In plane stress its zz is the stretch of the thickness, 1 unless MpmEngine.thinning.")
+		.add_property("F", &MpmState::deformation, "Deformation gradient [-], 3x3. In plane stress its zz is the stretch of the thickness, 1 unless MpmEngine.thinning; in axisymmetry zz is the hoop stretch.")
 		.add_property("plasticStrain", &MpmState::plasticStrain, "Accumulated equivalent plastic strain [-], the integral of sqrt(2/3 e_p:e_p).")
 		.add_property("volume", &MpmState::volume, "Current volume [m3].")
 	);

@@ -10,7 +10,7 @@ from yade.minieigenHP import Vector3
 O = wrapper.Omega()
 
 
-def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=True):
+def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=True, axisymmetric=False):
 	"""Fill a region with material points and return their ids.
 
 	Points stand at min + (i + 1/2) spacing along each axis, min being the lower corner of the region or of its bounding box;
@@ -25,40 +25,47 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	:param velocity: initial velocity [m/s], a vector of 3
 	:param bool bodies: whether every point becomes a body of O.bodies (a Sphere of radius spacing/2 with an MpmState).
 		Without, points are cheaper, invisible to other engines, and have negative ids.
+	:param bool axisymmetric: points are full rings about the axis x = 0: the region is half the section through it, x the radius
+		and y along the axis, and every point has the volume 2 pi x spacing^2; takes no thickness
 	:returns: list of ids: of the bodies in O.bodies, or negative
 	:raises ValueError: for a spacing, thickness, region or velocity that makes no points
 	:raises KeyError: if there is no such material
 	"""
 	_positive('spacing', spacing)
 	if thickness is not None: _positive('thickness', thickness)
+	if axisymmetric and thickness is not None:
+		raise ValueError('mpm.fill: thickness = %r with axisymmetric=True: rings have none; leave it out' % thickness)
+	plane = axisymmetric or thickness is not None
 	velocity = numpy.asarray(velocity, dtype=float)
 	if velocity.shape != (3,) or not numpy.isfinite(velocity).all():
 		raise ValueError('mpm.fill: velocity = %s: give three finite components [m/s]' % (velocity,))
-	if thickness is not None and velocity[2] != 0:
+	if plane and velocity[2] != 0:
 		raise ValueError('mpm.fill: velocity = %s: points of a plane problem do not move along z' % (velocity,))
 
 	inside = None
 	if callable(region) and hasattr(region, 'aabb'):
 		lower, upper = (numpy.array([float(x) for x in corner]) for corner in region.aabb())
 		inside = region
-		if thickness is not None: lower, upper = lower[:2], upper[:2]
+		if plane: lower, upper = lower[:2], upper[:2]
 	else:
 		try:
 			lower, upper = (numpy.array([float(x) for x in corner]) for corner in region)
 		except (TypeError, ValueError):
 			raise ValueError('mpm.fill: region = %r: give two corners, ((x0,y0),(x1,y1)) or ((x0,y0,z0),(x1,y1,z1)), or a predicate of yade.pack' % (region,)) from None
-	if lower.size != upper.size or lower.size != (3 if thickness is None else 2):
-		raise ValueError('mpm.fill: region = %r: %s' % (region, 'a 3D region needs two corners of three coordinates; give a thickness for a plane one'
-			if thickness is None else 'with a thickness the region is plane; give two corners of two coordinates'))
+	if lower.size != upper.size or lower.size != (2 if plane else 3):
+		raise ValueError('mpm.fill: region = %r: %s' % (region, 'the region is plane with a thickness or axisymmetric=True; give two corners of two coordinates'
+			if plane else 'a 3D region needs two corners of three coordinates; give a thickness for a plane one'))
 
 	axes = [_lattice(lower[d], upper[d], spacing) for d in range(lower.size)]
-	if thickness is not None: axes.append(numpy.zeros(1))
+	if plane: axes.append(numpy.zeros(1))
 	positions = numpy.ascontiguousarray(numpy.stack(numpy.meshgrid(*axes, indexing='ij'), axis=-1).reshape(-1, 3))
 	if inside is not None:
 		positions = numpy.ascontiguousarray(positions[[bool(inside(Vector3(*x), 0)) for x in positions.tolist()]].reshape(-1, 3))
 	if len(positions) == 0:
 		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region' % (region, spacing))
-	return _points(create=True).append(positions, spacing, thickness or 0., _material(material), Vector3(*velocity), bodies)
+	if axisymmetric and not (positions[:, 0] > 0).all():
+		raise ValueError('mpm.fill: region = %r: with axisymmetric=True x is the radius; give a region at x >= 0' % (region,))
+	return _points(create=True).append(positions, spacing, thickness or 0., axisymmetric, _material(material), Vector3(*velocity), bodies)
 
 
 def array(name):

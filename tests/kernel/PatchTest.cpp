@@ -82,6 +82,7 @@ std::vector<double> drive(Analysis analysis, const Law& law, const StepControl& 
 		case Analysis::uniaxial: return drive<Uniaxial>(law, control, steps);
 		case Analysis::planeStress: return drive<PlaneStress>(law, control, steps);
 		case Analysis::planeStrain: return drive<PlaneStrain>(law, control, steps);
+		case Analysis::axisymmetric: // of its own
 		case Analysis::solid: break;
 	}
 	return drive<Solid>(law, control, steps);

@@ -9,10 +9,10 @@ namespace yade::mpm {
 
 constexpr std::array<ShapeKind, 4> allShapes { ShapeKind::linear, ShapeKind::gimp, ShapeKind::quadratic, ShapeKind::cubic };
 constexpr std::array<Scheme, 3>    allSchemes { Scheme::usf, Scheme::usl, Scheme::musl };
-constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid };
+constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid }; // Cartesian ones
 inline const char*                 name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
 inline const char*                 name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
-inline const char*                 name(Analysis a) { return std::array<const char*, 4> { "uniaxial", "plane stress", "plane strain", "3D" }[std::size_t(a)]; }
+inline const char* name(Analysis a) { return std::array<const char*, 5> { "uniaxial", "plane stress", "plane strain", "axisymmetric", "3D" }[std::size_t(a)]; }
 
 /* A scene of the kernel alone: what the engine does in YADE, for tests. */
 struct Scene {
@@ -44,8 +44,9 @@ struct Scene {
 		return w;
 	}
 
-	/* Points at lower + (i + 1/2) spacing inside the box, with the first law; unit section across the axes that a problem lacks. */
-	void addBox(int dim, const std::array<double, 3>& lower, const std::array<double, 3>& upper, double spacing)
+	/* Points at lower + (i + 1/2) spacing inside the box, with the first law; unit section across the axes that a problem lacks, or full
+	rings about x = 0. */
+	void addBox(int dim, const std::array<double, 3>& lower, const std::array<double, 3>& upper, double spacing, bool ring = false)
 	{
 		std::array<int, 3> n { 1, 1, 1 };
 		double             volume = 1;
@@ -59,7 +60,8 @@ struct Scene {
 					double    x[3]     = { 0, 0, 0 };
 					for (int d = 0; d < dim; ++d)
 						x[d] = lower[d] + (index[d] + .5) * spacing;
-					points.append(int(points.count()), 0, x, still, laws[0].density * volume, volume, spacing, 1);
+					const double depth = ring ? 2 * std::acos(-1.) * x[0] : 1;
+					points.append(int(points.count()), 0, x, still, laws[0].density * volume * depth, volume * depth, spacing, depth);
 				}
 	}
 	void setVelocity(const std::function<std::array<double, 3>(const std::array<double, 3>&)>& velocity)
@@ -75,7 +77,8 @@ struct Scene {
 		int internals = 0;
 		for (const Law& law : laws)
 			internals = std::max(internals, Internals::of(law).columns(stressComponents(analysis)));
-		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning, forces, control.trackEnergy, false);
+		points.prepare(dimension(analysis), stressComponents(analysis), internals, control.thinning || analysis == Analysis::axisymmetric, forces,
+			control.trackEnergy, false);
 		solver = makeSolver(analysis, shape, cellSize, points, laws, walls);
 	}
 	/* The same points, laws and walls under a solver of their own: a saved scene that has been loaded. */

@@ -116,8 +116,7 @@ for value in -.1, 1.1, nan:
 for value in -.1, 1., nan:
 	refused('damping %r' % value, 'MpmEngine.damping = %g' % value, '[0, 1)', damping=value, fit=good(damping=0))
 refused('NaN gravity', 'MpmEngine.gravity', 'nan', 'finite acceleration', gravity=(0, nan, 0), fit=good(gravity=(0, 0, 0)))
-refused('analysis', "MpmEngine.analysis = 'plane'", "choose one of 'planeStress', 'planeStrain', '3d'", analysis='plane', fit=good(analysis='planeStrain'))
-refused('analysis of a later version', "MpmEngine.analysis = 'axisymmetric'", "'planeStress', 'planeStrain' and '3d'", analysis='axisymmetric')
+refused('analysis', "MpmEngine.analysis = 'plane'", "choose one of 'planeStress', 'planeStrain', 'axisymmetric', '3d'", analysis='plane', fit=good(analysis='planeStrain'))
 refused('shape', "MpmEngine.shape = 'spline'", "choose one of 'linear', 'gimp', 'quadratic', 'cubic'", shape='spline', fit=good(shape='linear'))
 refused('scheme', "MpmEngine.scheme = 'musl'", "choose one of 'USF', 'USL', 'MUSL'", scheme='musl', fit=good(scheme='USL'))
 refused('thinning in plane strain', 'MpmEngine.thinning', 'thinning = False', analysis='planeStrain', thinning=True, fit=good(thinning=False))
@@ -127,6 +126,11 @@ refused('3d analysis of points with a thickness', 'material point 0.thickness = 
 for analysis in 'planeStress', 'planeStrain':
 	refused('%s of points without a thickness' % analysis, 'material point 0.thickness = 0', 'mpm.fill(..., thickness=...)', region=((0, 0, 0), (1, 1, .5)), thickness=None, analysis=analysis,
 		fit=good(analysis='3d'))
+
+refused('axisymmetric analysis of plane points', 'material point 0.thickness = 0.1', 'axisymmetric=True', analysis='axisymmetric', fit=good(analysis='planeStress'))
+refused('a wall behind the axis', 'MpmEngine.walls', 'x is the radius', analysis='axisymmetric', thickness=None, axisymmetric=True,
+	walls=[MpmWall(normal=(1, 0, 0), origin=(-.5, 0, 0))], fit=good(walls=[]))
+raises('a ring with a thickness', ValueError, 'rings have none', lambda: mpm.fill(((0, 0), (1, 1)), .5, 0, thickness=1, axisymmetric=True))
 
 # ---- materials ----------------------------------------------------------------------------------------------------------
 

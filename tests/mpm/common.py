@@ -38,11 +38,11 @@ def elastic(young=1e6, poisson=.3, density=1000., label='elastic'):
 	return material
 
 
-def block(region=((0, 0), (1, 1)), spacing=.25, thickness=.1, material=None, velocity=(0, 0, 0), bodies=True, courant=.4, before=(), after=(), **engine):
+def block(region=((0, 0), (1, 1)), spacing=.25, thickness=.1, material=None, velocity=(0, 0, 0), bodies=True, courant=.4, axisymmetric=False, before=(), after=(), **engine):
 	"""An empty scene but for a block of material points and the engines before, MpmEngine and after. Returns ids and engine."""
 	O.reset()
 	if isinstance(material, Material): O.materials.append(material)
-	ids = mpm.fill(region, spacing=spacing, thickness=thickness, material=material or elastic(), velocity=velocity, bodies=bodies)
+	ids = mpm.fill(region, spacing=spacing, thickness=thickness, material=material or elastic(), velocity=velocity, bodies=bodies, axisymmetric=axisymmetric)
 	engine.setdefault('cellSize', 2*spacing)
 	grid = MpmEngine(**engine)
 	O.engines = [ForceResetter()] + list(before) + [grid] + list(after)

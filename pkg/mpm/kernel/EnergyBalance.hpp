@@ -70,7 +70,8 @@ template <class S, class Shape> void MpmSolver<S, Shape>::startEnergies()
 /* Nodal masses and forces as the points have spread them, before the walls fold them, and the external part of the forces. */
 template <class S, class Shape> void MpmSolver<S, Shape>::keepSums()
 {
-	m_tracking.mass     = m_mass;
+	m_tracking.mass.fill(m_mass);
+	if constexpr (hoop) m_tracking.mass[0] = m_radialMass;
 	m_tracking.force    = m_force;
 	m_tracking.damping  = m_force;
 	m_tracking.external = m_force;
@@ -133,7 +134,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 			add(tile, sum[d], half[d]);
 	});
 	m_band.foldMomentumAtRest(half);
-	divideByMass(m_mass, half);
+	divideByMass(half);
 	m_band.unfold(m_walls, half, false);
 
 	collectTiles();
@@ -141,7 +142,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 	const double least = leastMass();
 	for (int d = 0; d < dim; ++d)
 		for (std::size_t i = 0; i < m_mass.size(); ++i) {
-			const double m = m_tracking.mass[i];
+			const double m = m_tracking.mass[d][i];
 			if (!(m > least)) continue;
 			const double u = .5 * (m_momentum[d][i] - m_force[d][i] + half[d][i]), braking = m * m_tracking.damping[d][i] * dt;
 			work.external -= m_tracking.external[d][i] * dt * u;

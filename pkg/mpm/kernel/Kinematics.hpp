@@ -7,7 +7,7 @@
 namespace yade::mpm {
 
 /* Kinematics of one step at a point, from G = dt grad v, the gradient of the displacement increment with respect
-to the configuration at the start of the step (row-major, dim x dim).
+to the configuration at the start of the step (row-major, dim x dim; then dt v_r/r in axisymmetry).
 
 Large strain, after Hughes & Winget, IJNME 15 (1980) 1862: with A = G (I + G/2)^-1, the gradient at mid-step,
   strain increment  sym A       (zero for every rigid motion)
@@ -73,6 +73,11 @@ template <> struct Increment<PlaneStrain> {
 
 private:
 	void set() { strain[0] = plane.xx, strain[1] = plane.yy, strain[2] = 0, strain[3] = plane.gamma; }
+};
+
+template <> struct Increment<Axisymmetric> : Increment<PlaneStrain> {
+	void small(const double* G) { Increment<PlaneStrain>::small(G), strain[2] = G[4]; }
+	void large(const double* G) { Increment<PlaneStrain>::large(G), strain[2] = G[4] / (1 + .5 * G[4]); }
 };
 
 template <> struct Increment<Solid> {

@@ -11,9 +11,11 @@ namespace {
 	{
 		constexpr int dim2 = S::dim * S::dim, N = S::N;
 		forLanes([&](int l) {
-			double g[dim2], f[dim2], s[N];
+			double g[gradients<S>], f[dim2], s[N];
+			for (int k = 0; k < gradients<S>; ++k)
+				g[k] = block.G[k][l];
 			for (int k = 0; k < dim2; ++k)
-				g[k] = block.G[k][l], f[k] = block.F[k][l];
+				f[k] = block.F[k][l];
 			Increment<S> increment;
 			if (largeStrain) {
 				increment.large(g);
@@ -46,13 +48,14 @@ template <class S> void updateBlock(InstructionSet set, const Law& law, bool lar
 			case 1: advance<S, true, 1>(block, strain); break;
 			default: advance<S, true, 2>(block, strain);
 		}
-		updateStressLanes<S>(law, strain, block.sigma, block.internal, block.response, block.respond);
+		updateStressLanes<LawState<S>>(law, strain, block.sigma, block.internal, block.response, block.respond);
 	});
 }
 
 template void updateBlock(InstructionSet, const Law&, bool, LawBlock<Uniaxial>&);
 template void updateBlock(InstructionSet, const Law&, bool, LawBlock<PlaneStress>&);
 template void updateBlock(InstructionSet, const Law&, bool, LawBlock<PlaneStrain>&);
+template void updateBlock(InstructionSet, const Law&, bool, LawBlock<Axisymmetric>&);
 template void updateBlock(InstructionSet, const Law&, bool, LawBlock<Solid>&);
 
 } // namespace yade::mpm

@@ -16,7 +16,8 @@ namespace yade::mpm {
 /* Suffixes as in the literature: _p of a point, _i of a node, _ip a weight of point p at node i. */
 template <class S, class Shape> class MpmSolver final : public Solver {
 public:
-	static constexpr int dim = S::dim, N = S::N;
+	static constexpr int  dim = S::dim, N = S::N;
+	static constexpr bool hoop = hasHoop<S>;
 
 	MpmSolver(Analysis analysis, double cellSize, Points& points, const std::vector<Law>& laws, std::vector<Wall>& walls)
 	    : m_analysis(analysis)
@@ -86,7 +87,7 @@ public:
 	}
 
 	void        pointsChanged() override { m_sorted = m_known = false; }
-	std::size_t gridBytes() const override { return m_mass.size() * sizeof(double) * (1 + 3 * dim); }
+	std::size_t gridBytes() const override { return m_mass.size() * sizeof(double) * (1 + hoop + 3 * dim); }
 	Analysis    analysis() const override { return m_analysis; }
 	int         components() const override { return N; }
 
@@ -146,6 +147,7 @@ private:
 	Grid                    m_grid;
 	WallBand<dim>           m_band;
 	Column                  m_mass;
+	Column                  m_radialMass;                    // in axisymmetry, see below
 	NodeVector<dim>         m_momentum, m_force, m_velocity; // momentum becomes velocity, force becomes dt * acceleration
 	std::vector<TileReport> m_reports;
 	double                  m_wallHalfSize = 0;     // of the point whose shape functions the bands have been built for
@@ -156,7 +158,7 @@ private:
 	struct StressWork;
 	struct Tracking {                              // empty unless energies are tracked
 		std::vector<Energies> tiles;           // what the passes have found, summed in the order of tiles
-		Column                mass;            // of the nodes, not folded
+		NodeVector<dim>       mass;            // of the nodes, not folded
 		NodeVector<dim>       force, external; // likewise; all forces, and the external ones
 		NodeVector<dim>       damping;         // acceleration that damping takes away
 	};
@@ -198,6 +200,7 @@ private:
 		const double r = P.count() ? halfSize(0, 0) : .5; // of the shape functions at the walls
 		if (!m_laid || r != m_wallHalfSize) {
 			m_mass.assign(m_grid.nodeCount(), 0);
+			if (hoop) m_radialMass.assign(m_grid.nodeCount(), 0);
 			for (auto* field : { &m_momentum, &m_force, &m_velocity })
 				for (Column& c : *field)
 					c.assign(m_grid.nodeCount(), 0);
@@ -223,6 +226,8 @@ private:
 					"reduce O.dt (mpm.criticalTimeStep() says how far), or look at the loads on it");
 			if (!(xi >= m_geometry.xiMin[d] - tolerance) || !(xi <= m_geometry.xiMax[d] + tolerance))
 				fail(p, "has left the walls", "check that walls and points overlap as meant, reduce O.dt, or refine the points");
+			if (hoop && d == 0 && !(x > 0))
+				fail(p, "is not at a positive radius", "in axisymmetry x is the radius: place points at x > 0, or reduce O.dt");
 			if (std::abs(xi) > range) fail(p, "is too far from the origin of the grid", "move the scene nearer to the origin, or enlarge cellSize");
 		}
 	}
@@ -395,6 +400,7 @@ private:
 	{
 		forEachNodeRange([&](std::size_t begin, std::size_t end) {
 			zero(m_mass, begin, end);
+			if constexpr (hoop) zero(m_radialMass, begin, end);
 			for (int d = 0; d < dim; ++d)
 				zero(m_momentum[d], begin, end), zero(m_force[d], begin, end);
 		});
@@ -419,6 +425,7 @@ private:
 			loadMotion(block, x, mp, mvp);
 			weights(tile, block, x, w);
 			if (force) pointForces(block, mp, fp, Vs);
+			if constexpr (hoop && force) addHoopForce(block, x[0], fp[0]);
 			for (int l = 0; l < block.count; ++l)
 				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
 					const int     at = w[l].first + offset;
@@ -446,7 +453,47 @@ private:
 			add(tile, mv[d], m_momentum[d]);
 			if (force) add(tile, f[d], m_force[d]);
 		}
+		if constexpr (hoop) spreadRadialMass(tile);
 	}
+	/* In axisymmetry the lumped mass of a node for radial motion is sum N_ip m_p r_p / r_i, with r_i negative behind the axis:
+	then a uniform expansion v_r = a r passes from the points to the grid and back unchanged, momentum and energy included.
+	With sum N_ip m_p it would be wrong by a third in the cell at the axis. */
+	void spreadRadialMass(const Tile& tile)
+	{
+		Patch mr {};
+		for (std::size_t p = tile.begin; p < tile.end; ++p)
+			forEachNode(weights(tile, p), [&, mass = m_points.mass[p] * m_points.position[0][p]](
+							      int i, double Nip, const std::array<double, dim>&) { mr[i] += Nip * mass; });
+		for (int i = 0; i < local; ++i) {
+			const double r = m_geometry.origin[0] + (tile.index[0] * Grid::width + i % extent) * m_geometry.cell[0];
+			mr[i]          = std::abs(r) > 1e-9 * m_geometry.cell[0] ? mr[i] / r : 0; // on the axis nothing moves
+		}
+		add(tile, mr, m_radialMass);
+	}
+	/* -V_p sigma_hoop / r_p, which N_ip brings to the nodes. */
+	void addHoopForce(Block block, const Lanes& r, Lanes& fr) const
+	{
+		Lanes V, sigma, stretch, F[dim * dim];
+		load(m_points.volume0, block, V);
+		load(m_points.stress[2], block, sigma);
+		if (m_control.largeStrain) {
+			load(m_points.thicknessStretch, block, stretch);
+			for (int k = 0; k < dim * dim; ++k)
+				load(m_points.deformation[k], block, F[k]);
+			forLanes([&](int l) { V[l] *= determinantOf(F, l) * stretch[l]; });
+		}
+		forLanes([&](int l) { fr[l] -= V[l] * sigma[l] / r[l]; });
+	}
+	/* Lumped mass for the motion along axis d. */
+	const Column& massOf(int d) const { return hoop && d == 0 ? m_radialMass : m_mass; }
+	NodeMass<dim> nodeMass()
+	{
+		NodeMass<dim> mass;
+		mass.fill(&m_mass);
+		if constexpr (hoop) mass[0] = &m_radialMass;
+		return mass;
+	}
+
 	/* Position, mass and momentum. */
 	void loadMotion(Block block, Lanes (&x)[dim], Lanes& mp, Lanes (&mvp)[dim]) const
 	{
@@ -527,13 +574,13 @@ private:
 	/* Step 2: a_i = f_i / m_i, Cundall's damping, v_i += dt a_i, walls   (eq. 14) */
 	void updateNodes()
 	{
-		m_band.fold(m_walls, m_mass, m_momentum, m_force, m_control.dt);
+		m_band.fold(m_walls, nodeMass(), m_momentum, m_force, m_control.dt);
 		forEachNodeRange([this](std::size_t begin, std::size_t end) {
-			const double  dt = m_control.dt, damping = m_control.damping, least = leastMass();
-			const bool    energy = m_control.trackEnergy;
-			const double* mass   = m_mass.data();
+			const double dt = m_control.dt, damping = m_control.damping, least = leastMass();
+			const bool   energy = m_control.trackEnergy;
 			for (int d = 0; d < dim; ++d) {
-				double *v = m_momentum[d].data(), *dv = m_force[d].data(), *lost = energy ? m_tracking.damping[d].data() : nullptr;
+				const double* mass = massOf(d).data();
+				double *      v = m_momentum[d].data(), *dv = m_force[d].data(), *lost = energy ? m_tracking.damping[d].data() : nullptr;
 #pragma omp simd
 				for (std::size_t i = begin; i < end; ++i) {
 					const double over = inverseOf(mass[i], least), start = v[i] * over, a = dv[i] * over, trend = a * (start + .5 * dt * a);
@@ -651,8 +698,8 @@ private:
 	/* Step 4, at the nodes: v_i = (m v)_i / m_i, walls again. */
 	void remapVelocities()
 	{
-		m_band.foldMomentum(m_walls, m_mass, m_velocity);
-		divideByMass(m_mass, m_velocity);
+		m_band.foldMomentum(m_walls, nodeMass(), m_velocity);
+		divideByMass(m_velocity);
 		m_band.unfold(m_walls, m_velocity, true);
 	}
 	/* Points under an external force move with the velocities that the stress sees. A contact's force follows the points'
@@ -685,13 +732,13 @@ private:
 			v[d] = gather<-1>(w, patch);
 		}
 	}
-	void divideByMass(const Column& mass, NodeVector<dim>& field) const
+	void divideByMass(NodeVector<dim>& field) const
 	{
 		forEachNodeRange([&](std::size_t begin, std::size_t end) {
-			const double  least = leastMass();
-			const double* m     = mass.data();
-			for (Column& c : field) {
-				double* v = c.data();
+			const double least = leastMass();
+			for (int d = 0; d < dim; ++d) {
+				const double* m = massOf(d).data();
+				double*       v = field[d].data();
 #pragma omp simd
 				for (std::size_t i = begin; i < end; ++i)
 					v[i] *= inverseOf(m[i], least);
@@ -714,17 +761,17 @@ private:
 	}
 	void updateStressAndMove(std::size_t t, const Tile& tile, Block block, const Patch (&v)[dim])
 	{
-		Lanes       x[dim], advance, G[dim * dim];
+		Lanes       x[dim], advance, G[gradients<S>];
 		WeightLanes w;
 		for (int d = 0; d < dim; ++d)
 			load(m_points.position[d], block, x[d]);
 		weights(tile, block, x, w);
 		for (int l = 0; l < lanes; ++l)
-			displacementGradient(w[std::min(l, block.count - 1)], v, l, G);
+			displacementGradient(w[std::min(l, block.count - 1)], v, x[0][l], l, G);
 		if (!updateBlockStress(t, block, G))
 			for (int l = 0; l < block.count; ++l) {
-				double Gp[dim * dim];
-				for (int k = 0; k < dim * dim; ++k)
+				double Gp[gradients<S>];
+				for (int k = 0; k < gradients<S>; ++k)
 					Gp[k] = G[k][l];
 				updatePointStress(t, block.first + std::size_t(l), Gp);
 			}
@@ -736,8 +783,9 @@ private:
 		}
 	}
 	/* dt grad v of the point with weights w. */
-	void displacementGradient(const Weights& w, const Patch (&v)[dim], int l, Lanes (&G)[dim * dim]) const
+	void displacementGradient(const Weights& w, const Patch (&v)[dim], double r, int l, Lanes (&G)[gradients<S>]) const
 	{
+		if constexpr (hoop) G[dim * dim][l] = m_stressControl.dt * gather<-1>(w, v[0]) / r;
 		for (int d = 0; d < dim; ++d) {
 			G[d * dim][l] = m_stressControl.dt * gather<0>(w, v[d]);
 			if constexpr (dim > 1) G[d * dim + 1][l] = m_stressControl.dt * gather<1>(w, v[d]);
@@ -745,7 +793,7 @@ private:
 		}
 	}
 	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
-	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[dim * dim])
+	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[gradients<S>])
 	{
 		const int material = m_points.material[block.first];
 		if (m_stressControl.trackEnergy) return false;
@@ -757,7 +805,7 @@ private:
 		const bool  thinning = std::is_same_v<S, PlaneStress> && m_stressControl.thinning, follows = !m_points.freeStrain.empty();
 		LawBlock<S> b;
 		b.respond = thinning || follows;
-		std::copy(G, G + dim * dim, b.G);
+		std::copy(G, G + gradients<S>, b.G);
 		for (int k = 0; k < N; ++k)
 			load(m_points.stress[k], block, b.sigma[k]);
 		for (int k = 0; k < columns; ++k)
@@ -773,6 +821,9 @@ private:
 			store(b.internal[k], block, m_points.internal[k]);
 		for (int k = 0; k < dim * dim; ++k)
 			store(b.F[k], block, m_points.deformation[k]);
+		if constexpr (hoop)
+			for (int l = 0; l < block.count; ++l)
+				advanceHoop(block.first + std::size_t(l), G[dim * dim][l]);
 		for (int l = 0; l < block.count; ++l) {
 			const std::size_t p = block.first + std::size_t(l);
 			const double      e = b.response.freeStrain[l];
@@ -782,18 +833,24 @@ private:
 		}
 		return true;
 	}
-	static void displacementGradient(const Weights& w, const Patch (&v)[dim], double dt, double (&G)[dim * dim])
+	void advanceHoop(std::size_t p, double g)
 	{
-		std::fill(G, G + dim * dim, 0.);
-		forEachNode(w, [&](int i, double, const std::array<double, dim>& grad) {
+		double& stretch = m_points.thicknessStretch[p];
+		stretch += m_stressControl.largeStrain ? g * stretch : g;
+	}
+	static void displacementGradient(const Weights& w, const Patch (&v)[dim], double r, double dt, double (&G)[gradients<S>])
+	{
+		std::fill(G, G + gradients<S>, 0.);
+		forEachNode(w, [&](int i, double Nip, const std::array<double, dim>& grad) {
 			for (int d = 0; d < dim; ++d)
 				for (int e = 0; e < dim; ++e)
 					G[d * dim + e] += v[d][i] * grad[e];
+			if constexpr (hoop) G[dim * dim] += v[0][i] * Nip / r;
 		});
 		for (double& g : G)
 			g *= dt;
 	}
-	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[dim * dim])
+	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[gradients<S>])
 	{
 		const Law&      law     = m_laws[m_points.material[p]];
 		const Internals layout  = Internals::of(law);
@@ -817,13 +874,15 @@ private:
 		if (m_stressControl.trackEnergy || thinning || !m_points.freeStrain.empty()) {
 			Response         response;
 			const StressWork work(*this, law, p, F, increment.strain, sigma, internal);
-			updateStress<S>(law, increment.strain, sigma, internal, &response);
+			updateStress<LawState<S>>(law, increment.strain, sigma, internal, &response);
 			if (!m_points.freeStrain.empty()) m_points.freeStrain[p] += response.freeStrain;
 			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * response.freeStrain) / (1 - .5 * response.freeStrain);
+			if constexpr (hoop) advanceHoop(p, G[dim * dim]);
 			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
 			if (m_stressControl.trackEnergy) work.add(F, sigma, internal, response, m_tracking.tiles[t]);
 		} else {
-			updateStress<S>(law, increment.strain, sigma, internal);
+			updateStress<LawState<S>>(law, increment.strain, sigma, internal);
+			if constexpr (hoop) advanceHoop(p, G[dim * dim]);
 			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
 		}
 		for (int k = 0; k < N; ++k)
@@ -839,12 +898,13 @@ private:
 	void startVelocities()
 	{
 		// on copies: the step that follows folds the raw sums itself
-		Column            mass  = m_mass;
+		const Column      mass = m_mass, radial = m_radialMass;
 		NodeVector<dim>   none  = m_force;
 		std::vector<Wall> walls = m_walls;
 		m_velocity              = m_momentum;
-		m_band.fold(walls, mass, m_velocity, none, m_control.dt);
-		divideByMass(mass, m_velocity);
+		m_band.fold(walls, nodeMass(), m_velocity, none, m_control.dt);
+		divideByMass(m_velocity);
+		m_mass = mass, m_radialMass = radial;
 		m_band.unfold(m_walls, m_velocity, true);
 	}
 	void stressThenForce(std::size_t t)
@@ -855,10 +915,16 @@ private:
 			read(tile, m_velocity[d], v[d]);
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
 			const Weights w = weights(tile, p);
-			double        G[dim * dim], fp[dim], Vs[dim][dim];
-			displacementGradient(w, v, m_stressControl.dt, G);
+			double        G[gradients<S>], fp[dim], Vs[dim][dim];
+			displacementGradient(w, v, m_points.position[0][p], m_stressControl.dt, G);
 			updatePointStress(t, p, G);
 			pointForces(p, fp, Vs);
+			if constexpr (hoop) {
+				Lanes fr, r;
+				load(m_points.position[0], { p, 1 }, r), forLanes([&](int l) { fr[l] = fp[0]; });
+				addHoopForce({ p, 1 }, r, fr);
+				fp[0] = fr[0];
+			}
 			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>& grad) {
 				for (int d = 0; d < dim; ++d)
 					f[d][i] += nodalForce(d, Nip, grad, fp, Vs);

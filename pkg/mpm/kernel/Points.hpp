@@ -34,15 +34,15 @@ struct Energies {
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion). */
 struct Points {
-	std::vector<int>          id;                             // of the point: its body's, or negative where it has none
-	std::vector<int>          material;                       // index into the scene's table of laws
-	Column                    mass, volume0;                  // [kg], [m3] undeformed
-	Column                    size, thickness;                // lattice spacing [m]; thickness [m] of a plane point, 0 of a 3D one
+	std::vector<int>          id;              // of the point: its body's, or negative where it has none
+	std::vector<int>          material;        // index into the scene's table of laws
+	Column                    mass, volume0;   // [kg], [m3] undeformed
+	Column                    size, thickness; // lattice spacing [m]; thickness [m] of a plane point, 0 of a 3D one, minus the circumference of a ring
 	Columns                   position { 3 }, velocity { 3 }; // all three axes, whatever the analysis
 	Columns                   stress, internal, deformation;  // deformation: F, row-major
 	Columns                   advance;                        // displacement of the current step, not yet in position while its stress update is pending
 	Columns                   force;                          // external, but for gravity [N]
-	Column                    thicknessStretch;               // F_zz of thinning plane stress
+	Column                    thicknessStretch;               // F_zz of thinning plane stress, hoop stretch of a ring
 	Column                    dissipation;                    // heat per undeformed volume [J/m3], where energies are tracked
 	Column                    freeStrain;                     // eps_zz in plane stress, of laws that do not keepsVolume()
 	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
@@ -80,9 +80,9 @@ struct Points {
 			position[d].push_back(x[d]), velocity[d].push_back(v[d]);
 	}
 	/* Gives every point the columns of an analysis: dim axes, stresses of the given number of components, internal
-	variables, and where asked for the thickness stretch, the external forces, the dissipation and the
+	variables, and where asked for the thickness (or hoop) stretch, the external forces, the dissipation and the
 	strain of the free normal. New entries are those of a point at rest. */
-	void prepare(int dim, int components, int internals, bool thinning, bool forces, bool energy, bool freeNormal)
+	void prepare(int dim, int components, int internals, bool stretch, bool forces, bool energy, bool freeNormal)
 	{
 		const std::size_t n     = count();
 		auto              shape = [n](Columns& columns, int number, auto&& initial) {
@@ -94,7 +94,7 @@ struct Points {
 		shape(stress, components, zero), shape(internal, internals, zero), shape(advance, dim, zero);
 		shape(deformation, dim * dim, [dim](int k) { return k % (dim + 1) == 0 ? 1. : 0.; });
 		shape(force, forces ? dim : 0, zero);
-		thicknessStretch.resize(thinning ? n : 0, 1.);
+		thicknessStretch.resize(stretch ? n : 0, 1.);
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);

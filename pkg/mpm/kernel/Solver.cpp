@@ -11,6 +11,7 @@ int stressComponents(Analysis analysis)
 		case Analysis::uniaxial: return Uniaxial::N;
 		case Analysis::planeStress: return PlaneStress::N;
 		case Analysis::planeStrain: return PlaneStrain::N;
+		case Analysis::axisymmetric: return Axisymmetric::N;
 		case Analysis::solid: return Solid::N;
 	}
 	throw std::logic_error("unknown analysis");
@@ -24,6 +25,7 @@ std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double ce
 		case Analysis::uniaxial: return makeSolverOf<Uniaxial>(analysis, shape, cellSize, points, laws, walls);
 		case Analysis::planeStress: return makeSolverOf<PlaneStress>(analysis, shape, cellSize, points, laws, walls);
 		case Analysis::planeStrain: return makeSolverOf<PlaneStrain>(analysis, shape, cellSize, points, laws, walls);
+		case Analysis::axisymmetric: return makeSolverOf<Axisymmetric>(analysis, shape, cellSize, points, laws, walls);
 		case Analysis::solid: return makeSolverOf<Solid>(analysis, shape, cellSize, points, laws, walls);
 	}
 	throw std::logic_error("unknown analysis");

@@ -8,7 +8,7 @@
 
 namespace yade::mpm {
 
-enum class Analysis { uniaxial, planeStress, planeStrain, solid };
+enum class Analysis { uniaxial, planeStress, planeStrain, axisymmetric, solid };
 enum class ShapeKind { linear, gimp, quadratic, cubic };
 
 /* When the stress is updated (doc/method.md): from the velocities at the start of the step (USF), from the updated nodal

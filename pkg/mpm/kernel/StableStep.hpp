@@ -24,7 +24,8 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	NodeVector<dim>   f;
 	for (Column& c : f)
 		c.assign(nodes, 0);
-	m_band.foldAtRest(&m_mass, f); // masses in front of the walls
+	m_band.foldAtRest(f);
+	m_band.foldMassAtRest(nodeMass()); // masses in front of the walls
 	const double      least   = leastMass();
 	std::vector<Wall> resting = m_walls;
 	for (Wall& wall : resting)
@@ -37,8 +38,8 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	};
 	// folded sums over mass, zero behind the walls and on empty nodes
 	auto pack = [&](NodeVector<dim>& sums, Column& y) {
-		m_band.foldAtRest(nullptr, sums);
-		divideByMass(m_mass, sums);
+		m_band.foldAtRest(sums);
+		divideByMass(sums);
 		m_band.clearBehind(sums);
 		for (int d = 0; d < dim; ++d)
 			std::copy(sums[d].begin(), sums[d].end(), y.begin() + d * std::ptrdiff_t(nodes));
@@ -54,9 +55,10 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 			for (std::size_t p = tile.begin; p < tile.end; ++p) {
 				const Weights w   = weights(tile, p);
 				const Law&    law = m_laws[m_points.material[p]];
-				double        G[dim * dim], F[dim * dim], s[N], Vs[dim][dim];
+				double        G[gradients<S>], F[dim * dim], s[N], Vs[dim][dim];
+				const double  r = m_points.position[0][p];
 				Increment<S>  increment;
-				displacementGradient(w, v, 1, G);
+				displacementGradient(w, v, r, 1, G);
 				increment.small(G);
 				S::elastic(law.elastic, increment.strain, s);
 				for (int k = 0; k < dim * dim; ++k)
@@ -65,10 +67,11 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 				for (int d = 0; d < dim; ++d)
 					for (int e = 0; e < dim; ++e)
 						Vs[d][e] = V * s[component(d, e)];
-				forEachNode(w, [&](int i, double, const std::array<double, dim>& grad) {
+				forEachNode(w, [&](int i, double Nip, const std::array<double, dim>& grad) {
 					for (int d = 0; d < dim; ++d)
 						for (int e = 0; e < dim; ++e)
 							fi[d][i] += Vs[d][e] * grad[e];
+					if constexpr (hoop) fi[0][i] += V * s[2] / r * Nip;
 				});
 			}
 			for (int d = 0; d < dim; ++d)
@@ -103,9 +106,11 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	};
 
 	// Q A is self-adjoint where A is the metric: iterate on A Q instead, similar to it and symmetric in the Q-weighted product
-	Column start(dim * nodes), scratch(dim * nodes);
+	const auto masses = nodeMass();
+	auto       massOf = [&](std::size_t k) { return (*masses[k / nodes])[k % nodes]; };
+	Column     start(dim * nodes), scratch(dim * nodes);
 	for (std::size_t k = 0; k < start.size(); ++k)
-		start[k] = m_mass[k % nodes] > least ? std::sin(1 + 12.9898 * double(k)) : 0;
+		start[k] = massOf(k) > least ? std::sin(1 + 12.9898 * double(k)) : 0;
 	NodeVector<dim> shaped = m_velocity;
 	unpack(start, shaped);
 	m_band.clearBehind(shaped);
@@ -115,7 +120,7 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	auto massInner = [&](const Column& x, const Column& y) {
 		double sum = 0;
 		for (std::size_t k = 0; k < x.size(); ++k)
-			sum += m_mass[k % nodes] * x[k] * y[k];
+			sum += massOf(k) * x[k] * y[k];
 		return sum;
 	};
 	double lambda;

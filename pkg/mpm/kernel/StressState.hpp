@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace yade::mpm {
 
@@ -92,6 +93,9 @@ struct PlaneStrain { // xx, yy, zz, xy
 	}
 };
 
+/* rr, zz and hoop, rz: the plane is half a section through the axis, x the radius and y along the axis. */
+struct Axisymmetric : PlaneStrain {};
+
 struct Solid { // xx, yy, zz, yz, zx, xy
 	static constexpr int N = 6, dim = 3, solid[] = { 0, 1, 2, 3, 4, 5 };
 	static void          elastic(const Hooke& C, const double* e, double* s)
@@ -172,6 +176,13 @@ template <class S> constexpr int normals()
 		count += S::solid[k] < 3;
 	return count;
 }
+
+/* Numbers in G = dt grad v, dim x dim row-major; where there is a hoop strain its rate times dt comes last. */
+template <class S> constexpr bool hasHoop  = std::is_same_v<S, Axisymmetric>;
+template <class S> constexpr int gradients = S::dim* S::dim + hasHoop<S>;
+
+/* The stress state as laws see it: to them axisymmetry is plane strain with a strain across the plane. */
+template <class S> using LawState = std::conditional_t<hasHoop<S>, PlaneStrain, S>;
 
 /* s^T D^-1 s of the whole tensor, twice the elastic energy a volume [J/m3]. */
 template <class S> double complianceProduct(const Hooke& C, const double* s)

@@ -5,7 +5,8 @@
 
 namespace yade::mpm {
 
-template <int dim> using NodeVector = std::array<Column, dim>; // one array over the nodes a component
+template <int dim> using NodeVector = std::array<Column, dim>;  // one array over the nodes a component
+template <int dim> using NodeMass   = std::array<Column*, dim>; // lumped mass that a component of the motion has
 
 /* Walls as an operation on the grid.
 
@@ -36,24 +37,24 @@ public:
 	}
 
 	/* Folds mass, momentum and force, applies friction and sets the walls' reactions. */
-	void fold(std::vector<Wall>& walls, Column& mass, NodeVector<dim>& momentum, NodeVector<dim>& force, double dt)
+	void fold(std::vector<Wall>& walls, const NodeMass<dim>& mass, NodeVector<dim>& momentum, NodeVector<dim>& force, double dt)
 	{
 		if (m_bands.empty()) return;
 		for (Wall& wall : walls)
 			wall.force = { 0, 0, 0 };
 		for (ReactionNode& r : m_reaction) {
-			r.mass = mass[r.node];
 			for (int d = 0; d < dim; ++d)
-				r.force[d] = force[d][r.node];
+				r.mass[d] = (*mass[d])[r.node], r.force[d] = force[d][r.node];
 		}
 		for (Band& band : m_bands) {
 			if (band.friction) decideContact(band, walls[band.wall], mass, momentum, force, dt);
 			for (Column_& c : band.columns) {
 				if (!c.folded) continue;
-				c.ghostMass = c.ghost >= 0 ? mass[c.ghost] : 0;
+				for (int d = 0; d < dim; ++d)
+					c.ghostMass[d] = c.ghost >= 0 ? (*mass[d])[c.ghost] : 0;
 				foldMomentum(c, band, walls[band.wall], mass, momentum);
 				foldForce(c, band, force);
-				if (c.mirror >= 0 && c.ghost >= 0) mass[c.mirror] += c.ghostMass;
+				foldMass(c, mass);
 			}
 			if (band.friction) applyFriction(band, walls[band.wall], mass, momentum, force, dt);
 		}
@@ -61,22 +62,24 @@ public:
 		addReactions(walls, mass, force);
 	}
 	/* Folds a momentum with the masses that fold() has met. */
-	void foldMomentum(const std::vector<Wall>& walls, const Column& mass, NodeVector<dim>& momentum) const
+	void foldMomentum(const std::vector<Wall>& walls, const NodeMass<dim>& mass, NodeVector<dim>& momentum) const
 	{
 		for (const Band& band : m_bands)
 			for (const Column_& c : band.columns)
 				if (c.folded) foldMomentum(c, band, walls[band.wall], mass, momentum);
 	}
-	/* Folds mass and force alone, walls at rest; contacts let go. For the stable time step. */
-	void foldAtRest(Column* mass, NodeVector<dim>& force) const
+	/* Folds force or mass alone, walls at rest; contacts let go. For the stable time step. */
+	void foldAtRest(NodeVector<dim>& force) const
 	{
-		for (const Band& band : m_bands) {
-			if (band.friction) continue;
-			for (const Column_& c : band.columns) {
-				foldForce(c, band, force);
-				if (mass && c.mirror >= 0 && c.ghost >= 0) (*mass)[c.mirror] += (*mass)[c.ghost];
-			}
-		}
+		for (const Band& band : m_bands)
+			for (const Column_& c : band.columns)
+				if (!band.friction) foldForce(c, band, force);
+	}
+	void foldMassAtRest(const NodeMass<dim>& mass) const
+	{
+		for (const Band& band : m_bands)
+			for (const Column_& c : band.columns)
+				if (!band.friction) foldMass(c, mass);
 	}
 	/* Folds a momentum increment, which vanishes at the walls. */
 	void foldMomentumAtRest(NodeVector<dim>& momentum) const
@@ -121,10 +124,10 @@ public:
 
 private:
 	struct Column_ { // of nodes through the wall: on the plane, one behind it, its mirror image; -1 where there is none
-		std::ptrdiff_t plane, ghost, mirror;
-		bool           folded, outside; // outside: behind a wall that is folded before
-		double         reaction;        // normal force of the material on the wall, pressing > 0
-		double         ghostMass;       // when it was folded: walls that come later fold on it
+		std::ptrdiff_t          plane, ghost, mirror;
+		bool                    folded, outside; // outside: behind a wall that is folded before
+		double                  reaction;        // normal force of the material on the wall, pressing > 0
+		std::array<double, dim> ghostMass;       // when it was folded: walls that come later fold on it
 	};
 	struct Band {
 		std::size_t           wall;
@@ -140,8 +143,7 @@ private:
 		std::ptrdiff_t             node;
 		std::array<Cover, 2 * dim> covers;
 		int                        count;
-		double                     mass; // of the node alone, before folding
-		std::array<double, dim>    force;
+		std::array<double, dim>    mass, force; // of the node alone, before folding
 	};
 	NodeVector<dim>           m_acceleration; // of the reaction nodes
 	std::vector<Band>         m_bands;
@@ -171,7 +173,7 @@ private:
 			for (const Wall& other : walls)
 				if (other.axis != wall.axis && (other.kind != Wall::Kind::friction || &other < &wall))
 					outside = outside || (node[other.axis] - planeNode(g, other)) * other.side < 0;
-			band.columns.push_back({ at(0), at(-1), at(1), wall.kind != Wall::Kind::friction, outside, 0, 0 });
+			band.columns.push_back({ at(0), at(-1), at(1), wall.kind != Wall::Kind::friction, outside, 0, {} });
 		});
 		return band;
 	}
@@ -198,7 +200,7 @@ private:
 		for (auto& f : feet)
 			std::sort(f.begin(), f.end());
 		forEachNode(grid, [&](const Index& node, std::ptrdiff_t at) {
-			ReactionNode r { at, {}, 0, 0, {} };
+			ReactionNode r { at, {}, 0, {}, {} };
 			for (std::size_t b = 0; b < m_bands.size() && r.count < 2 * dim; ++b) {
 				const Wall& wall = walls[m_bands[b].wall];
 				if (std::abs(depth(node, wall)) > 1) continue;
@@ -222,11 +224,11 @@ private:
 	}
 	/* Force on a wall = force on the nodes - their mass times their acceleration. A component is taken by the wall normal to
 	it, else by a fixed wall, else by friction. */
-	void addReactions(std::vector<Wall>& walls, const Column& mass, const NodeVector<dim>& force)
+	void addReactions(std::vector<Wall>& walls, const NodeMass<dim>& mass, const NodeVector<dim>& force)
 	{
 		for (const ReactionNode& r : m_reaction)
 			for (int d = 0; d < dim; ++d)
-				m_acceleration[d][r.node] = mass[r.node] > 0 ? force[d][r.node] / mass[r.node] : 0;
+				m_acceleration[d][r.node] = (*mass[d])[r.node] > 0 ? force[d][r.node] / (*mass[d])[r.node] : 0;
 		unfold(walls, m_acceleration, false);
 		for (const ReactionNode& r : m_reaction) {
 			std::array<int, dim> taker, rank {};
@@ -242,18 +244,24 @@ private:
 				}
 			}
 			for (int d = 0; d < dim; ++d)
-				if (taker[d] >= 0) walls[taker[d]].force[d] += r.force[d] - r.mass * m_acceleration[d][r.node];
+				if (taker[d] >= 0) walls[taker[d]].force[d] += r.force[d] - r.mass[d] * m_acceleration[d][r.node];
 		}
 	}
 
-	static void foldMomentum(const Column_& c, const Band& band, const Wall& wall, const Column& mass, NodeVector<dim>& momentum)
+	static void foldMass(const Column_& c, const NodeMass<dim>& mass)
+	{
+		if (c.mirror < 0 || c.ghost < 0) return;
+		for (int d = 0; d < dim; ++d)
+			if (d == 0 || mass[d] != mass[d - 1]) (*mass[d])[c.mirror] += (*mass[d])[c.ghost];
+	}
+	static void foldMomentum(const Column_& c, const Band& band, const Wall& wall, const NodeMass<dim>& mass, NodeVector<dim>& momentum)
 	{
 		for (int d = 0; d < dim; ++d) {
 			const double w = wall.velocity[d];
-			if (c.plane >= 0 && band.odd[d]) momentum[d][c.plane] = mass[c.plane] * w;
+			if (c.plane >= 0 && band.odd[d]) momentum[d][c.plane] = (*mass[d])[c.plane] * w;
 			if (c.mirror < 0 || c.ghost < 0) continue;
 			const double ghost = momentum[d][c.ghost];
-			momentum[d][c.mirror] += band.odd[d] ? 2 * c.ghostMass * w - ghost : ghost;
+			momentum[d][c.mirror] += band.odd[d] ? 2 * c.ghostMass[d] * w - ghost : ghost;
 		}
 	}
 	void clearPlanes(NodeVector<dim>& force) const
@@ -275,9 +283,11 @@ private:
 	/* A column is in contact when its node on the plane moves into the wall, or when it presses on the wall while that node
 	leaves: the near points of a compressed body do, as it rebounds. An impulse that is nothing beside the node's momentum
 	away from the wall is rounding, and no contact. */
-	static void decideContact(Band& band, const Wall& wall, const Column& mass, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
+	static void decideContact(
+		Band& band, const Wall& wall, const NodeMass<dim>& masses, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
 	{
-		const int a = wall.axis;
+		const int     a    = wall.axis;
+		const Column& mass = *masses[a];
 		for (Column_& c : band.columns) {
 			c.folded = false;
 			if (c.plane < 0 || c.outside || !(mass[c.plane] > 0)) continue;
@@ -292,20 +302,24 @@ private:
 		}
 	}
 	/* The tangential impulse that stops the sliding at the plane, or as much of it as Coulomb's law allows. */
-	void applyFriction(const Band& band, const Wall& wall, const Column& mass, const NodeVector<dim>& momentum, NodeVector<dim>& force, double dt) const
+	void applyFriction(
+		const Band& band, const Wall& wall, const NodeMass<dim>& mass, const NodeVector<dim>& momentum, NodeVector<dim>& force, double dt) const
 	{
 		for (const Column_& c : band.columns) {
 			if (!c.folded || !(c.reaction > 0)) continue;
-			const bool   two = c.mirror >= 0 && mass[c.mirror] > 0;
-			const double w0 = m_N0, w1 = two ? 2 * m_N1 : 0;
-			const double weight = w0 * w0 / mass[c.plane] + (two ? w1 * w1 / mass[c.mirror] : 0);
+			const double w0 = m_N0, w1       = 2 * m_N1;
 			double       impulse[dim], norm2 = 0;
+			bool         two = c.mirror >= 0;
+			for (int d = 0; d < dim; ++d)
+				two = two && (d == wall.axis || (*mass[d])[c.mirror] > 0);
 			for (int d = 0; d < dim; ++d) {
 				impulse[d] = 0;
 				if (d == wall.axis) continue;
-				double slip = w0 * (momentum[d][c.plane] + dt * force[d][c.plane]) / mass[c.plane];
-				if (two) slip += w1 * (momentum[d][c.mirror] + dt * force[d][c.mirror]) / mass[c.mirror];
-				impulse[d] = -(slip - (w0 + w1) * wall.velocity[d]) / weight;
+				const double m0 = (*mass[d])[c.plane], m1 = two ? (*mass[d])[c.mirror] : 1;
+				if (!(m0 > 0)) continue; // on the axis nothing slides
+				double slip = w0 * (momentum[d][c.plane] + dt * force[d][c.plane]) / m0, weight = w0 * w0 / m0, sum = w0;
+				if (two) slip += w1 * (momentum[d][c.mirror] + dt * force[d][c.mirror]) / m1, weight += w1 * w1 / m1, sum += w1;
+				impulse[d] = -(slip - sum * wall.velocity[d]) / weight;
 				norm2 += impulse[d] * impulse[d];
 			}
 			const double limit = wall.friction * c.reaction * dt, norm = std::sqrt(norm2);
