@@ -411,6 +411,10 @@ void MpmEngine::readBodies()
 			points.fixed.resize(n, 0);
 			points.fixed[p] = fixed;
 		}
+		if (!body.intrs.empty() || !points.touched.empty()) {
+			points.touched.resize(n, 0);
+			points.touched[p] = !body.intrs.empty();
+		}
 		if (body.material != m_points->materials[std::size_t(points.material[p])]) {
 			m_points->finish();
 			m_points->changeMaterial(p, body.material);

@@ -48,7 +48,7 @@ template <class S> struct LawPoint {
 			part[k] = increment[std::size_t(k)] / steps;
 		for (int i = 0; i < steps; ++i) {
 			work += .5 * dot<S>(sigma, part);
-			updateStress<S>(law, part, sigma, internal.data(), &response);
+			updateStress<LawState<S>>(law, part, sigma, internal.data(), &response);
 			work += .5 * dot<S>(sigma, part);
 		}
 	}

@@ -62,7 +62,7 @@ public:
 			clear(m_velocity);
 			forEachTile([&](std::size_t t) { gridToPoints<true>(t); });
 			remapVelocities();
-			if (!m_points.force.empty()) forEachTile([&](std::size_t t) { moveLoadedPoints(t); });
+			if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { moveTouchedPoints(t); });
 		} else {
 			forEachTile([&](std::size_t t) { gridToPoints<false>(t); });
 			std::swap(m_velocity, m_momentum); // the updated velocities themselves
@@ -702,16 +702,13 @@ private:
 		divideByMass(m_velocity);
 		m_band.unfold(m_walls, m_velocity, true);
 	}
-	/* Points under an external force move with the velocities that the stress sees. A contact's force follows the points'
+	/* Points in contact move with the velocities that the stress sees. A contact's force follows the points'
 	positions; moved by the velocities before the transfer back it would lose energy at first order in dt (doc/method.md). */
-	void moveLoadedPoints(std::size_t t)
+	void moveTouchedPoints(std::size_t t)
 	{
 		const Tile& tile = m_grid.tiles()[t];
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
-			bool loaded = false;
-			for (int d = 0; d < dim; ++d)
-				loaded |= m_points.force[d][p] != 0;
-			if (!loaded) continue;
+			if (!m_points.touched[p]) continue;
 			double v[dim] {};
 			gatherVelocity(tile, weights(tile, p), v);
 			for (int d = 0; d < dim; ++d) {

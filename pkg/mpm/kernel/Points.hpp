@@ -32,7 +32,7 @@ struct Energies {
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion). */
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched (no contacts). */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
 	std::vector<int>          material;        // index into the scene's table of laws
@@ -47,6 +47,7 @@ struct Points {
 	Column                    freeStrain;                     // eps_zz in plane stress, of laws that do not keepsVolume()
 	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
 	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
+	std::vector<std::uint8_t> touched;                        // whether force follows the position: a contact's does; said anew at every step
 
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
 
@@ -69,6 +70,7 @@ struct Points {
 		visit(id);
 		visit(material);
 		visit(fixed);
+		visit(touched);
 	}
 
 	/* Adds an undeformed, stress-free point; prepare() gives it the columns that the analysis needs. */
@@ -98,6 +100,7 @@ struct Points {
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
+		if (!touched.empty()) touched.resize(n, 0);
 	}
 
 	/* Keeps the points order[0], order[1], ... in this order and drops the others. */
