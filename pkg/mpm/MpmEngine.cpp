@@ -11,6 +11,7 @@
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/TimeStepper.hpp>
+#include <algorithm>
 #include <omp.h>
 
 namespace yade {
@@ -411,9 +412,11 @@ void MpmEngine::readBodies()
 			points.fixed.resize(n, 0);
 			points.fixed[p] = fixed;
 		}
-		if (!body.intrs.empty() || !points.touched.empty()) {
+		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
+		const bool touched = std::any_of(body.intrs.begin(), body.intrs.end(), [](const auto& i) { return i.second->geom && i.second->phys; });
+		if (touched || !points.touched.empty()) {
 			points.touched.resize(n, 0);
-			points.touched[p] = !body.intrs.empty();
+			points.touched[p] = touched;
 		}
 		if (body.material != m_points->materials[std::size_t(points.material[p])]) {
 			m_points->finish();
