@@ -4,6 +4,7 @@
 #include "BadInput.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
+#include <algorithm>
 #include <core/BodyContainer.hpp>
 #include <core/Bound.hpp>
 #include <core/EnergyTracker.hpp>
@@ -11,7 +12,6 @@
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/TimeStepper.hpp>
-#include <algorithm>
 #include <omp.h>
 
 namespace yade {
