@@ -426,27 +426,37 @@ private:
 			weights(tile, block, x, w);
 			if (force) pointForces(block, mp, fp, Vs);
 			if constexpr (hoop && force) addHoopForce(block, x[0], fp[0]);
-			for (int l = 0; l < block.count; ++l)
-				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
-					const int     at = w[l].first + offset;
-					const double *N = w[l].N_[0], *dN = w[l].dN[0], c0m = c[0] * mp[l];
-					double        c0mv[dim], fN[dim], fdN[dim];
+			for (int l = 0; l < block.count; ++l) {
+				// along x, all that a row's weights across will multiply
+				alignas(8 * row) double rm[row], rmv[dim][row], rf[dim][dim][row];
+				const double *          N = w[l].N_[0], *dN = w[l].dN[0];
+#pragma omp simd
+				for (int i = 0; i < row; ++i) {
+					rm[i] = mp[l] * N[i];
 					for (int d = 0; d < dim; ++d) {
-						c0mv[d] = c[0] * mvp[d][l];
+						rmv[d][i] = mvp[d][l] * N[i];
 						if (!force) continue;
-						fN[d] = c[0] * fp[d][l], fdN[d] = -c[0] * Vs[d][0][l];
+						rf[d][0][i] = fp[d][l] * N[i] - Vs[d][0][l] * dN[i];
 						for (int e = 1; e < dim; ++e)
-							fN[d] -= c[e] * Vs[d][e][l];
+							rf[d][e][i] = -Vs[d][e][l] * N[i];
 					}
+				}
+				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
+					const int at = w[l].first + offset;
 #pragma omp simd
 					for (int i = 0; i < row; ++i) {
-						m[at + i] += c0m * N[i];
+						m[at + i] += c[0] * rm[i];
 						for (int d = 0; d < dim; ++d) {
-							mv[d][at + i] += c0mv[d] * N[i];
-							if (force) f[d][at + i] += fN[d] * N[i] + fdN[d] * dN[i];
+							mv[d][at + i] += c[0] * rmv[d][i];
+							if (!force) continue;
+							double sum = f[d][at + i];
+							for (int e = 0; e < dim; ++e)
+								sum += c[e] * rf[d][e][i];
+							f[d][at + i] = sum;
 						}
 					}
 				});
+			}
 		});
 		add(tile, m, m_mass);
 		for (int d = 0; d < dim; ++d) {
@@ -620,52 +630,83 @@ private:
 			for (int l = 0; l < lanes; ++l) {
 				const int from = std::min(l, block.count - 1);
 				for (int d = 0; d < dim; ++d)
-					vp[d][l] = gather<-1>(w[from], v[d]), dvp[d][l] = gather<-1>(w[from], dv[d]);
+					vp[d][l] = gather(w[from], v[d]), dvp[d][l] = gather(w[from], dv[d]);
 			}
 			load(m_points.mass, block, mp);
 			for (int d = 0; d < dim; ++d)
 				left |= movePoints(tile, block, d, x[d], mp, vp[d], dvp[d], mvp[d]);
 			if (!remap) return;
-			for (int l = 0; l < block.count; ++l)
+			for (int l = 0; l < block.count; ++l) {
+				alignas(8 * row) double rmv[dim][row];
+#pragma omp simd
+				for (int i = 0; i < row; ++i)
+					for (int d = 0; d < dim; ++d)
+						rmv[d][i] = mvp[d][l] * w[l].N_[0][i];
 				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
 					const int at = w[l].first + offset;
-					double    c0mv[dim];
-					for (int d = 0; d < dim; ++d)
-						c0mv[d] = c[0] * mvp[d][l];
 #pragma omp simd
 					for (int i = 0; i < row; ++i)
 						for (int d = 0; d < dim; ++d)
-							mv[d][at + i] += c0mv[d] * w[l].N_[0][i];
+							mv[d][at + i] += c[0] * rmv[d][i];
 				});
+			}
 		});
 		m_reports[t].left = left;
 		if (remap)
 			for (int d = 0; d < dim; ++d)
 				add(tile, mv[d], m_velocity[d]);
 	}
-	/* sum N_ip field_i (e = -1), or the component e of sum grad N_ip field_i, for the point with weights w. */
-	template <int e> static double gather(const Weights& w, const double* field)
+	/* sum N_ip field_i for the point with weights w. */
+	static double gather(const Weights& w, const double* field)
 	{
-		const double *along = e == 0 ? w.dN[0] : w.N_[0], *nodes = field + w.first;
-		const double *c1 = nullptr, *c2 = nullptr; // weights along the other axes
-		if constexpr (dim > 1) c1 = e == 1 ? w.dN[1] : w.N_[1];
-		if constexpr (dim > 2) c2 = e == 2 ? w.dN[2] : w.N_[2];
+		const double*           nodes = field + w.first;
 		alignas(8 * row) double part[row];
 #pragma omp simd
+		for (int i = 0; i < row; ++i)
+			part[i] = w.N_[0][i] * acrossRows<-1>(w, nodes + i);
+		return sumOfRow(part);
+	}
+	/* sum grad N_ip field_i. */
+	static void gatherGradient(const Weights& w, const double* field, double (&gradient)[dim])
+	{
+		const double*           nodes = field + w.first;
+		alignas(8 * row) double part[dim][row];
+#pragma omp simd
 		for (int i = 0; i < row; ++i) {
-			double sum = 0;
-			if constexpr (dim == 1) sum = nodes[i];
-			for (int j = 0; dim == 2 && j < support; ++j)
-				sum += c1[j] * nodes[j * extent + i];
-			for (int k = 0; dim == 3 && k < support; ++k)
-				for (int j = 0; j < support; ++j)
-					sum += c1[j] * c2[k] * nodes[(k * extent + j) * extent + i];
-			part[i] = sum * along[i];
+			part[0][i] = w.dN[0][i] * acrossRows<-1>(w, nodes + i);
+			if constexpr (dim > 1) part[1][i] = w.N_[0][i] * acrossRows<1>(w, nodes + i);
+			if constexpr (dim > 2) part[2][i] = w.N_[0][i] * acrossRows<2>(w, nodes + i);
 		}
+		for (int e = 0; e < dim; ++e)
+			gradient[e] = sumOfRow(part[e]);
+	}
+	/* Sum over the rows of a support, at one place along them, with the weights across: those of the derivative along axis e. */
+	template <int e> static double acrossRows(const Weights& w, const double* nodes)
+	{
+		if constexpr (dim == 1)
+			return *nodes;
+		else if constexpr (dim == 2)
+			return acrossPlane(e == 1 ? w.dN[1] : w.N_[1], nodes);
+		else {
+			double sum = 0;
+			for (int k = 0; k < support; ++k)
+				sum += (e == 2 ? w.dN[2] : w.N_[2])[k] * acrossPlane(e == 1 ? w.dN[1] : w.N_[1], nodes + k * extent * extent);
+			return sum;
+		}
+	}
+	static double acrossPlane(const double* weights, const double* nodes)
+	{
+		double sum = 0;
+		for (int j = 0; j < support; ++j)
+			sum += weights[j] * nodes[j * extent];
+		return sum;
+	}
+	static double sumOfRow(const double (&x)[row])
+	{
 		if constexpr (row == 2)
-			return part[0] + part[1];
+			return x[0] + x[1];
 		else
-			return (part[0] + part[1]) + (part[2] + part[3]);
+			return (x[0] + x[2]) + (x[1] + x[3]);
 	}
 	/* New velocities and displacements along axis d; whether a point leaves the tile. */
 	bool movePoints(const Tile& tile, Block block, int d, const Lanes& x, const Lanes& mp, const Lanes& vp, const Lanes& dvp, Lanes& mvp)
@@ -726,7 +767,7 @@ private:
 		Patch patch;
 		for (int d = 0; d < dim; ++d) {
 			read(tile, m_velocity[d], patch);
-			v[d] = gather<-1>(w, patch);
+			v[d] = gather(w, patch);
 		}
 	}
 	void divideByMass(NodeVector<dim>& field) const
@@ -782,12 +823,13 @@ private:
 	/* dt grad v of the point with weights w. */
 	void displacementGradient(const Weights& w, const Patch (&v)[dim], double r, int l, Lanes (&G)[gradients<S>]) const
 	{
-		if constexpr (hoop) G[dim * dim][l] = m_stressControl.dt * gather<-1>(w, v[0]) / r;
 		for (int d = 0; d < dim; ++d) {
-			G[d * dim][l] = m_stressControl.dt * gather<0>(w, v[d]);
-			if constexpr (dim > 1) G[d * dim + 1][l] = m_stressControl.dt * gather<1>(w, v[d]);
-			if constexpr (dim > 2) G[d * dim + 2][l] = m_stressControl.dt * gather<2>(w, v[d]);
+			double gradient[dim];
+			gatherGradient(w, v[d], gradient);
+			for (int e = 0; e < dim; ++e)
+				G[d * dim + e][l] = m_stressControl.dt * gradient[e];
 		}
+		if constexpr (hoop) G[dim * dim][l] = m_stressControl.dt * gather(w, v[0]) / r;
 	}
 	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
 	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[gradients<S>])
