@@ -15,7 +15,9 @@ template <class Value> [[noreturn]] void refuse(const std::string& object, const
 	text << object << "." << attribute << " = " << value << ": " << remedy;
 	throw std::runtime_error(text.str());
 }
-template <class Value> void require(bool good, const std::string& object, const std::string& attribute, const Value& value, const std::string& remedy)
+/* Texts become strings only where there is something to complain of: this is asked at every step. */
+template <class Object, class Attribute, class Value, class Remedy>
+void require(bool good, const Object& object, const Attribute& attribute, const Value& value, const Remedy& remedy)
 {
 	if (!good) refuse(object, attribute, value, remedy);
 }

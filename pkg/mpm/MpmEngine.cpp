@@ -19,14 +19,13 @@ namespace yade {
 namespace {
 	const char* const self = "MpmEngine";
 
-	template <class Value>
-	Value choose(const std::string& attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
+	template <class Value> Value choose(const char* attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
 	{
-		std::string names;
-		for (const auto& [name, value] : choices) {
+		for (const auto& [name, value] : choices)
 			if (given == name) return value;
+		std::string names;
+		for (const auto& [name, value] : choices)
 			names += (names.empty() ? "'" : ", '") + std::string(name) + "'";
-		}
 		refuse(self, attribute, "'" + given + "'", "choose one of " + names);
 	}
 
@@ -118,7 +117,7 @@ mpm::StepControl MpmEngine::prepare()
 
 	if (m_checkedEngines.size() != scene->engines.size()
 		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
-			[](Engine* a, const shared_ptr<Engine>& b) { return a == b.get(); }))
+			[](const Checked& a, const shared_ptr<Engine>& b) { return a.engine == b.get() && a.dead == b->dead; }))
 		checkEngineOrder();
 	const bool stretch = thinning || analysisKind == mpm::Analysis::axisymmetric;
 	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretch) m_points->finish();
@@ -245,10 +244,19 @@ void MpmEngine::checkGimp() const
 void MpmEngine::checkEngineOrder()
 {
 	const auto&          engines = scene->engines;
-	std::vector<Engine*> order;
-	for (const auto& engine : engines)
-		order.push_back(engine.get());
-	const std::size_t n = engines.size(), here = std::size_t(std::find(order.begin(), order.end(), this) - order.begin());
+	std::vector<Checked> order;
+	const std::size_t    n    = engines.size();
+	std::size_t          here = n;
+	for (std::size_t k = 0; k < n; ++k) {
+		const std::string name = engines[k]->getClassName();
+		const Role        role = engines[k].get() == this                             ? Role::self
+					 : dynamic_cast<const TimeStepper*>(engines[k].get()) ? Role::stepper
+					 : name == "NewtonIntegrator"                         ? Role::newton
+					 : name == "InteractionLoop"                          ? Role::loop
+											      : Role::other;
+		if (role == Role::self) here = k;
+		order.push_back({ engines[k].get(), engines[k]->dead, role });
+	}
 	if (here == n) return;    // asked for its time step outside O.engines
 	m_checkedEngines.clear(); // a bad order is complained of each time
 	for (const auto& engine : engines)
@@ -276,17 +284,16 @@ bool MpmEngine::checkClocks() const
 {
 	const auto& engines = scene->engines;
 	long        here = -1, stepper = -1, newton = -1, loop = -1;
-	for (long k = 0; k < long(engines.size()); ++k) {
-		const Engine* engine = engines[std::size_t(k)].get();
-		if (engine->dead) continue;
-		if (engine == this)
-			here = k;
-		else if (const auto* clock = dynamic_cast<const TimeStepper*>(engine))
-			stepper = clock->active ? k : stepper;
-		else if (const std::string name = engine->getClassName(); name == "NewtonIntegrator")
-			newton = k;
-		else if (name == "InteractionLoop")
-			loop = k;
+	for (long k = 0; k < long(m_checkedEngines.size()); ++k) {
+		const Checked& checked = m_checkedEngines[std::size_t(k)];
+		if (checked.dead) continue;
+		switch (checked.role) {
+			case Role::self: here = k; break;
+			case Role::stepper: stepper = static_cast<const TimeStepper*>(checked.engine)->active ? k : stepper; break;
+			case Role::newton: newton = k; break;
+			case Role::loop: loop = k; break;
+			case Role::other: break;
+		}
 	}
 	if (here < 0) return false;
 	const auto between = [](long a, long b, long c) { return a >= 0 && c >= 0 && (b - a) * (b - c) < 0; };
@@ -343,16 +350,6 @@ void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------
 
-namespace {
-	[[noreturn]] void refuseNonFinite(int id, const Vector3r& force, const State& state)
-	{
-		const std::string number = std::to_string(id);
-		if (!force.allFinite()) refuse("O.forces", "f(" + number + ")", force.transpose(), "look at the engine, contact or script that applies it");
-		if (!state.vel.allFinite()) refuse("O.bodies[" + number + "].state", "vel", state.vel.transpose(), "give a finite velocity [m/s]");
-		refuse("O.bodies[" + number + "].state", "pos", state.pos.transpose(), "give a finite position [m]");
-	}
-} // namespace
-
 /* Whether the point's body still is in O.bodies, looked up anew. */
 bool MpmEngine::link(std::size_t p)
 {
@@ -370,62 +367,12 @@ what this engine wrote. */
 void MpmEngine::readBodies()
 {
 	if (m_bodies == 0) return;
-	mpm::Points& points = m_points->points;
-	const auto&  bodies = scene->bodies->body;
-	auto&        forces = scene->forces;
-	const auto   n      = points.count();
-	const int    dim    = int(points.force.size());
-	forces.sync();
-	double *      f[3], *v[3];
-	const double *x[3], *u[3];
-	for (std::size_t d = 0; d < std::size_t(dim); ++d)
-		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
-
+	scene->forces.sync();
 	std::vector<std::size_t> moved;
-	bool                     erased = false;
-	for (std::size_t p = 0; p < n; ++p) {
-		const int  id = points.id[p];
-		const auto at = std::size_t(id);
-		if (id < 0) continue;
-		// what MpmPoints::bodyOf has once said holds as long as body and state stay
-		const bool linked =
-			at < m_links.size() && at < bodies.size() && bodies[at] && bodies[at] == m_links[at].body && bodies[at]->state == m_links[at].state;
-		if (!linked && !link(p)) {
-			erased = true;
-			continue;
-		}
-		const Body&     body  = *m_links[at].body;
-		const State&    state = *m_links[at].state;
-		const Vector3r& force = forces.getForce(id);
-		const Real      sum   = force.sum() + state.pos.sum() + state.vel.sum();
-		if (!(sum - sum == 0)) refuseNonFinite(id, force, state);
-		bool here = true;
-		for (int d = 0; d < dim; ++d) {
-			f[d][p] = force[d], v[d][p] = state.vel[d];
-			here &= state.pos[d] == x[d][p] + u[d][p];
-		}
-		if (dim == 2 && (state.pos[2] != 0 || state.vel[2] != 0))
-			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state.pos[2],
-				"in a plane analysis points lie at z = 0 and stay there");
-		if (!here) moved.push_back(p);
-		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
-			points.fixed.resize(n, 0);
-			points.fixed[p] = fixed;
-		}
-		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
-		const bool touched = std::any_of(body.intrs.begin(), body.intrs.end(), [](const auto& i) { return i.second->geom && i.second->phys; });
-		if (touched || !points.touched.empty()) {
-			points.touched.resize(n, 0);
-			points.touched[p] = touched;
-		}
-		if (body.material != m_points->materials[std::size_t(points.material[p])]) {
-			m_points->finish();
-			m_points->changeMaterial(p, body.material);
-			prepareSolver();
-		}
-	}
+	const bool               erased = m_points->points.force.size() == 2 ? readStates<2>(moved) : readStates<3>(moved);
 	if (moved.empty() && !erased) return;
 
+	mpm::Points& points = m_points->points;
 	m_points->finish();
 	for (const std::size_t p : moved)
 		for (int d = 0; d < 3; ++d)
@@ -433,6 +380,84 @@ void MpmEngine::readBodies()
 	if (erased) m_points->dropErased(*scene->bodies);
 	m_solver->pointsChanged();
 	checkPoints(analysisOf(analysis));
+}
+
+/* Fetches force, velocity, blockedDOFs, material and contact of every body. Notes the points whose positions are no longer
+theirs, and returns whether bodies have been erased. In a small scene this loop is what YADE costs: it complains of bad input
+after it has passed. */
+template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
+{
+	mpm::Points&      points = m_points->points;
+	const auto&       bodies = scene->bodies->body;
+	auto&             forces = scene->forces;
+	const std::size_t n      = points.count();
+	double *          f[dim], *v[dim];
+	const double *    x[dim], *u[dim];
+	for (std::size_t d = 0; d < dim; ++d)
+		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
+	const int* const ids       = points.id.data();
+	const auto*      materials = m_points->materials.data();
+	const auto       mark      = [n](std::vector<std::uint8_t>& flags, std::size_t p, unsigned flag) {
+                if (!flag && flags.empty()) return;
+                flags.resize(n, 0);
+                flags[p] = std::uint8_t(flag);
+	};
+
+	bool erased   = false;
+	Real offPlane = 0, nonFinite = 0; // what is not nothing of them
+	for (std::size_t p = 0; p < n; ++p) {
+		if (ids[p] < 0) continue;
+		const auto id = std::size_t(ids[p]);
+		// what MpmPoints::bodyOf has once said holds as long as body and state stay
+		const Body* body   = id < m_links.size() && id < bodies.size() ? m_links[id].body.get() : nullptr;
+		const bool  linked = body && body == bodies[id].get() && body->state.get() == m_links[id].state.get();
+		if (!linked && !link(p)) {
+			erased = true;
+			continue;
+		}
+		body                  = m_links[id].body.get();
+		const State&    state = *m_links[id].state.get();
+		const Vector3r &force = forces.getForce(ids[p]), &position = state.se3.position, &velocity = state.vel;
+		const Real      sum = force[0] + force[1] + force[2] + position[0] + position[1] + position[2] + velocity[0] + velocity[1] + velocity[2];
+		nonFinite += sum - sum;
+		Real gone = 0;
+		for (int d = 0; d < dim; ++d) {
+			f[d][p] = force[d], v[d][p] = velocity[d];
+			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
+		}
+		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
+		if (gone != 0) moved.push_back(p);
+		mark(points.fixed, p, state.blockedDOFs & 7);
+		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
+		const auto real = [](const auto& i) { return i.second->geom && i.second->phys; };
+		mark(points.touched, p, !body->intrs.empty() && std::any_of(body->intrs.begin(), body->intrs.end(), real));
+		if (body->material.get() != materials[points.material[p]].get()) {
+			m_points->finish();
+			m_points->changeMaterial(p, body->material);
+			prepareSolver();
+			materials = m_points->materials.data();
+		}
+	}
+	if (offPlane != 0 || nonFinite != 0) refuseStates(dim);
+	return erased;
+}
+
+/* Complains of the first body whose force, position or velocity cannot be. */
+void MpmEngine::refuseStates(int dim) const
+{
+	for (const int id : m_points->points.id) {
+		if (id < 0) continue;
+		const State* state = m_links[std::size_t(id)].state.get();
+		if (!state) continue;
+		const std::string body  = "O.bodies[" + std::to_string(id) + "].state";
+		const Vector3r&   force = scene->forces.getForce(id);
+		require(force.allFinite(), "O.forces", "f(" + std::to_string(id) + ")", force.transpose(),
+			"look at the engine, contact or script that applies it");
+		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");
+		require(state->pos.allFinite(), body, "pos", state->pos.transpose(), "give a finite position [m]");
+		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],
+			"in a plane analysis points lie at z = 0 and stay there");
+	}
 }
 
 void MpmEngine::writeBodies()
@@ -446,8 +471,8 @@ void MpmEngine::writeBodies()
 		const Link& link  = m_links[std::size_t(points.id[p])];
 		State&      state = *link.state;
 		for (std::size_t d = 0; d < dim; ++d) {
-			state.pos[int(d)] = points.position[d][p] + points.advance[d][p];
-			state.vel[int(d)] = points.velocity[d][p];
+			state.se3.position[int(d)] = points.position[d][p] + points.advance[d][p];
+			state.vel[int(d)]          = points.velocity[d][p];
 		}
 		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
 		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;

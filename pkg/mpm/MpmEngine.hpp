@@ -44,7 +44,14 @@ private:
 	std::size_t                                m_checkedCount = 0;
 	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable ...
 	std::vector<Real>                          m_checkedFor;       // ... with this scheme and these laws
-	std::vector<Engine*>                       m_checkedEngines;
+
+	enum class Role { other, self, stepper, newton, loop };
+	struct Checked { // of O.engines, when its order was checked
+		Engine* engine;
+		bool    dead;
+		Role    role; // what an engine means for the time step
+	};
+	std::vector<Checked> m_checkedEngines;
 
 	struct Link { // held, so that their addresses are theirs alone
 		shared_ptr<Body>  body;
@@ -67,6 +74,8 @@ private:
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
 	bool                         link(std::size_t p);
 	void                         readBodies();
+	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
+	void                         refuseStates(int dim) const;
 	void                         writeBodies();
 	void                         reportEnergies() const;
 };

@@ -250,6 +250,13 @@ order('contacts', [InteractionLoop([], [], []), ForceResetter(), None], 'Interac
 order('directed force', [InterpolatingDirectedForceEngine(ids=[0], times=[0, 1], magnitudes=[1, 1], direction=(1, 0, 0)), ForceResetter(), None], 'InterpolatingDirectedForceEngine')
 ids, grid = block(courant=None)
 O.dt = 1e-6
+late = ForceResetter(dead=True)
+O.engines = [grid, push(), late]
+O.run(2, True)
+late.dead = False
+raises('an engine that comes to life between two steps', RuntimeError, 'before MpmEngine', lambda: O.run(1, True))
+ids, grid = block(courant=None)
+O.dt = 1e-6
 O.engines = [grid, ForceResetter(), push()]
 O.run(3, True)
 near('forces applied after the engine, and not cleared before the next step, count', momentum()[0], 2e-6, 1e-18)

@@ -163,6 +163,14 @@ for what, order, part in (('Newton before an MpmEngine that sets O.dt', lambda e
 	e, m, n = O.engines[:3], O.engines[3], O.engines[4]
 	O.engines = order(e, stepper(), m, n)
 	raises(what, RuntimeError, part, lambda: O.run(1, True))
+ids, balls, grid = scene(safety=.3)
+e, m, n = O.engines[:3], O.engines[3], O.engines[4]
+idle = stepper()
+idle.active = False
+O.engines = e + [m, idle, n]
+O.run(2, True)
+idle.active = True
+raises('a stepper between the two that is switched on later', RuntimeError, 'between MpmEngine', lambda: O.run(1, True))
 
 # ---- O.trackEnergy with contacts: mpmExternal holds the contacts' work too -------------------------------------------
 ids, (ball, ), grid = scene([((.5, .5, .701), (0, 0, -1), .2)], gravity=(0, 0, 0), walls=False)
