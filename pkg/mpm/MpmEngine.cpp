@@ -110,7 +110,7 @@ mpm::StepControl MpmEngine::prepare()
 	require(damping >= 0 && damping < 1, self, "damping", damping, "give a value in [0, 1)");
 	require(timeStepSafety >= 0 && timeStepSafety <= 1, self, "timeStepSafety", timeStepSafety,
 		"give a part of the stable step, e.g. 0.4, or 0 to set O.dt yourself");
-	require(largestGap > 0, self, "largestGap", largestGap, "give a number of cells > 0, e.g. 1, or inf to have none looked for");
+	require(largestGap > 0, self, "largestGap", largestGap, "give a number of cells > 0, e.g. 2, or inf to have none looked for");
 	require(gravity.allFinite(), self, "gravity", gravity.transpose(), "give a finite acceleration [m/s2]");
 	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
 	const mpm::Analysis analysisKind = analysisOf(analysis);

@@ -114,7 +114,7 @@ for value, text in (0, '0'), (-1, '-1'), (nan, 'nan'), (inf, 'inf'):
 for value in -.1, 1.1, nan:
 	refused('flip %r' % value, 'MpmEngine.flip = %r' % value, '[0, 1]', flip=value, fit=good(flip=1))
 for value in (0, -1, nan):
-	refused('largestGap %r' % value, 'MpmEngine.largestGap = ', 'inf to have none', largestGap=value, fit=good(largestGap=1))
+	refused('largestGap %r' % value, 'MpmEngine.largestGap = ', 'inf to have none', largestGap=value, fit=good(largestGap=2))
 for value in -.1, 1., nan:
 	refused('damping %r' % value, 'MpmEngine.damping = %g' % value, '[0, 1)', damping=value, fit=good(damping=0))
 refused('NaN gravity', 'MpmEngine.gravity', 'nan', 'finite acceleration', gravity=(0, nan, 0), fit=good(gravity=(0, 0, 0)))
