@@ -60,6 +60,7 @@ void MpmEngine::step()
 	readBodies();
 	const bool stepper = checkClocks();
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
+	checkContinuity(control);
 	m_solver->step(control);
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
@@ -108,6 +109,7 @@ mpm::StepControl MpmEngine::prepare()
 	require(damping >= 0 && damping < 1, self, "damping", damping, "give a value in [0, 1)");
 	require(timeStepSafety >= 0 && timeStepSafety <= 1, self, "timeStepSafety", timeStepSafety,
 		"give a part of the stable step, e.g. 0.4, or 0 to set O.dt yourself");
+	require(largestGap > 0, self, "largestGap", largestGap, "give a number of cells > 0, e.g. 2, or inf to have none looked for");
 	require(gravity.allFinite(), self, "gravity", gravity.transpose(), "give a finite acceleration [m/s2]");
 	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
 	const mpm::Analysis analysisKind = analysisOf(analysis);
@@ -185,9 +187,11 @@ void MpmEngine::prepareSolver()
 		m_solver       = runtime.solver.get();
 		m_solverFor    = key;
 		m_checkedCount = 0;
+		m_continuity.forget();
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
+		if (m_points->filled) m_continuity.forget(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
 		m_points->filled = false;
 		m_checkedFor.clear();
@@ -348,6 +352,18 @@ void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
 
+/* Looks for gaps when two points can have gone half a cell apart since the last look, at the velocities that they had then. */
+void MpmEngine::checkContinuity(const mpm::StepControl& control)
+{
+	if (largestGap == std::numeric_limits<Real>::infinity()) return;
+	if (m_untilLook > 0) {
+		--m_untilLook;
+		return;
+	}
+	m_continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
+	m_untilLook = long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)) - 1;
+}
+
 // ---- bodies -------------------------------------------------------------------------------------------------------------
 
 /* Whether the point's body still is in O.bodies, looked up anew. */
@@ -378,6 +394,7 @@ void MpmEngine::readBodies()
 		for (int d = 0; d < 3; ++d)
 			points.position[std::size_t(d)][p] = m_links[std::size_t(points.id[p])].state->pos[d];
 	if (erased) m_points->dropErased(*scene->bodies);
+	if (!moved.empty()) m_continuity.forget();
 	m_solver->pointsChanged();
 	checkPoints(analysisOf(analysis));
 }

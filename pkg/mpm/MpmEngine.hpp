@@ -3,6 +3,7 @@
 
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
+#include "kernel/Continuity.hpp"
 #include <core/GlobalEngine.hpp>
 
 namespace yade {
@@ -28,6 +29,7 @@ public:
 		((bool, largeStrain, true, , "True: stress and back stress turn with the material (Hughes & Winget 1980), volumes are current. False: linear kinematics, initial volumes."))
 		((bool, thinning, false, , "Plane stress in large strain: whether the thickness follows the strain normal to the plane (True) or is kept (False)."))
 		((Real, timeStepSafety, 0, , "Where > 0, the engine sets O.dt before each step [-]: this part of the stable step, which follows the points' velocities at every step and the stiffness, density and place of the points every 500 steps. Beside an active TimeStepper (GlobalStiffnessTimeStepper) O.dt is the lesser of the two; the order is TimeStepper, MpmEngine, NewtonIntegrator. 0 leaves O.dt to the script. 0.4 suits most scenes."))
+		((Real, largestGap, 2, , "Largest gap that may open between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]: what their distance has more than the deformation of the material between them accounts for. A wider one is numerical fracture, the points share no node any more, and ends the run with their ids. Looked at whenever points can have moved a quarter of a cell, every 10 to 1000 steps. inf where a body is meant to come apart, or for no checks at all. Points of a DruckerPragerMat, which lets go in tension, are left out."))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
 		,/*ctor*/,
@@ -53,6 +55,9 @@ private:
 	};
 	std::vector<Checked> m_checkedEngines;
 
+	mpm::Continuity m_continuity;
+	long            m_untilLook = 0; // steps, at its gaps
+
 	struct Link { // held, so that their addresses are theirs alone
 		shared_ptr<Body>  body;
 		shared_ptr<State> state;
@@ -72,6 +77,7 @@ private:
 	bool                         stiffnessChanged(const mpm::StepControl& control);
 	void                         checkStep(const mpm::StepControl& control, bool stepper);
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
+	void                         checkContinuity(const mpm::StepControl& control);
 	bool                         link(std::size_t p);
 	void                         readBodies();
 	template <int dim> bool      readStates(std::vector<std::size_t>& moved);

@@ -113,6 +113,8 @@ for value, text in (0, '0'), (-1, '-1'), (nan, 'nan'), (inf, 'inf'):
 	refused('cellSize %s' % text, 'MpmEngine.cellSize = ' + text, 'edge of a grid cell > 0 [m]', cellSize=value, fit=good(cellSize=.5))
 for value in -.1, 1.1, nan:
 	refused('flip %r' % value, 'MpmEngine.flip = %r' % value, '[0, 1]', flip=value, fit=good(flip=1))
+for value in (0, -1, nan):
+	refused('largestGap %r' % value, 'MpmEngine.largestGap = ', 'inf to have none', largestGap=value, fit=good(largestGap=2))
 for value in -.1, 1., nan:
 	refused('damping %r' % value, 'MpmEngine.damping = %g' % value, '[0, 1)', damping=value, fit=good(damping=0))
 refused('NaN gravity', 'MpmEngine.gravity', 'nan', 'finite acceleration', gravity=(0, nan, 0), fit=good(gravity=(0, 0, 0)))
@@ -311,6 +313,17 @@ def push_hard(ids):
 
 stops('a load that turns a point inside out', 'material point', 'a volume that is not positive', 'at time 0.0', 'position (', 'cell (', 'reduce O.dt or the load',
 	make=block, spoil=push_hard, repair=None)
+
+
+def let_go(ids):
+	O.engines[1].largestGap = inf
+	O.dt = .4*mpm.criticalTimeStep()
+
+
+# hung up and drawn out by its own weight
+stops('a body that is drawn apart', 'material point', 'have come apart at time', 'position (', 'cells more than the deformation', 'larger cells', 'largestGap',
+	make=lambda: block(material=elastic(density=1050.), walls=[MpmWall(normal=(0, -1, 0), origin=(0, 1, 0), kind='fixed')], gravity=(0, -1000, 0), courant=.2),
+	spoil=lambda ids: None, repair=let_go)
 stops('a NaN force', 'O.forces.f(5) = ', 'nan', make=block, spoil=lambda ids: O.forces.setPermF(5, Vector3(0, nan, 0)), repair=lambda ids: O.forces.setPermF(5, Vector3(0, 0, 0)))
 stops('a NaN velocity', 'O.bodies[5].state.vel = ', 'nan', make=block, spoil=lambda ids: setattr(O.bodies[5].state, 'vel', Vector3(nan, 0, 0)),
 	repair=lambda ids: setattr(O.bodies[5].state, 'vel', Vector3(0, 0, 0)))

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "Continuity.hpp"
+#include "Solver.hpp"
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace yade::mpm {
+
+namespace {
+	int dimensionOf(const Points& points) { return points.deformation.size() == 1 ? 1 : points.deformation.size() == 4 ? 2 : 3; }
+
+	Eigen::Vector3d positionOf(const Points& points, std::size_t p) { return { points.position[0][p], points.position[1][p], points.position[2][p] }; }
+
+	/* (F_p + F_q)/2; along axes that the analysis lacks nothing deforms. */
+	Eigen::Matrix3d meanDeformation(const Points& points, int dim, std::size_t p, std::size_t q)
+	{
+		Eigen::Matrix3d mean = Eigen::Matrix3d::Identity();
+		for (int d = 0; d < dim; ++d)
+			for (int e = 0; e < dim; ++e) {
+				const Column& F = points.deformation[std::size_t(d * dim + e)];
+				mean(d, e)      = .5 * (F[p] + F[q]);
+			}
+		return mean;
+	}
+	bool letsGo(const Law& law) { return law.kind == Law::Kind::druckerPrager; }
+
+	/* Which of two neighbours has the other on its list. Oblique, so that no usual lattice has neighbours in the plane. */
+	bool isAhead(const Eigen::Vector3d& dX) { return dX.dot(Eigen::Vector3d(1, .41, .17)) > 0; }
+
+	double depth(const Points& points, std::size_t p, const Wall& wall) { return wall.side * (points.position[std::size_t(wall.axis)][p] - wall.position); }
+	double stretchAlong(const Points& points, int axis, std::size_t p) { return points.deformation[std::size_t(axis * (dimensionOf(points) + 1))][p]; }
+
+	std::string text(const Points& points, std::size_t p)
+	{
+		const Eigen::Vector3d x = positionOf(points, p);
+		return "(" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) + ") m";
+	}
+} // namespace
+
+void Continuity::check(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls, double cellSize, double largest, double time)
+{
+	const Gap gap = widest(points, laws, walls);
+	if (!(gap.opening > largest)) return;
+	const bool wall = gap.q == nowhere;
+	throw StepFailure("material point " + std::to_string(points.id[gap.p]) + " and "
+				  + (wall ? "the fixed wall beside it" : "its neighbour " + std::to_string(points.id[gap.q])) + " have come apart at time "
+				  + std::to_string(time) + " s, position " + text(points, gap.p) + (wall ? "" : " and " + text(points, gap.q)) + ": they are "
+				  + std::to_string(gap.distance) + " m from each other, " + std::to_string(gap.opening / cellSize)
+				  + " cells more than the deformation of the material between them accounts for. This is numerical fracture: points so far "
+				    "apart share no "
+				    "node. Use larger cells for the same points, shape='cubic', or less load; where the body is meant to come apart, set "
+				    "MpmEngine.largestGap = inf",
+		points.id[gap.p]);
+}
+
+Continuity::Gap Continuity::widest(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls)
+{
+	const bool known = locate(points);
+	if (!known) findNeighbours(points, laws);
+	std::vector<std::array<int, 3>> kinds;
+	for (const Wall& wall : walls)
+		kinds.push_back({ int(wall.kind), wall.axis, wall.side });
+	if (!known || kinds != m_walls) findFootings(points, laws, walls);
+	m_walls       = std::move(kinds);
+	const int dim = dimensionOf(points);
+	Gap       gap;
+	for (std::size_t k = 0; k < m_neighbours.size(); ++k) {
+		const Neighbour& n = m_neighbours[k];
+		if (n.dX == std::array<float, 3> { 0, 0, 0 }) continue;
+		const std::size_t p = m_place[k / m_links], q = m_place[n.slot];
+		if (p == nowhere || q == nowhere) continue; // erased since
+		const double distance = (positionOf(points, q) - positionOf(points, p)).norm();
+		if (distance <= gap.opening) continue;
+		const double opening = distance - (meanDeformation(points, dim, p, q) * Eigen::Vector3d(n.dX[0], n.dX[1], n.dX[2])).norm();
+		if (opening > gap.opening) gap = { p, q, distance, opening };
+	}
+	for (const Footing& f : m_footings) {
+		const std::size_t p = m_place[f.slot];
+		if (p == nowhere) continue;
+		const double distance = depth(points, p, walls[f.wall]), opening = distance - stretchAlong(points, walls[f.wall].axis, p) * f.distance;
+		if (opening > gap.opening) gap = { p, nowhere, distance, opening };
+	}
+	return gap;
+}
+
+Continuity::Slot* Continuity::slotOf(int id)
+{
+	auto&             slots = id >= 0 ? m_bodies : m_loose;
+	const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
+	return at < slots.size() ? &slots[at] : nullptr;
+}
+
+/* Finds the points' places; false where there is one that has not been seen before. */
+bool Continuity::locate(const Points& points)
+{
+	if (m_place.empty()) return false;
+	if (points.generation == m_generation && points.count() == m_count) return true;
+	m_generation = points.generation, m_count = points.count();
+	std::fill(m_place.begin(), m_place.end(), nowhere);
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		const Slot* slot = slotOf(points.id[p]);
+		if (!slot || *slot == Slot(-1)) return false;
+		m_place[*slot] = p;
+	}
+	return true;
+}
+
+void Continuity::findNeighbours(const Points& points, const std::vector<Law>& laws)
+{
+	const std::size_t n   = points.count();
+	const int         dim = dimensionOf(points);
+	m_generation = points.generation, m_count = n, m_links = std::size_t(dim);
+	m_neighbours.assign(n * m_links, {});
+	m_place.resize(n);
+	m_bodies.clear(), m_loose.clear();
+	for (std::size_t p = 0; p < n; ++p) {
+		const int         id    = points.id[p];
+		auto&             slots = id >= 0 ? m_bodies : m_loose;
+		const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
+		if (slots.size() <= at) slots.resize(std::max(at + 1, 2 * slots.size()), Slot(-1));
+		slots[at] = Slot(p), m_place[p] = p;
+	}
+
+	constexpr double reach = 1.5; // spacings: neighbours along the axes of a lattice, and next to one
+	const double     width = 2 * *std::max_element(points.size.begin(), points.size.end()); // of bins: neighbours may be stretched already
+	struct Entry {
+		std::array<int, 3> bin;
+		std::size_t        p;
+	};
+	auto               before = [](const Entry& a, const Entry& b) { return a.bin < b.bin; };
+	std::vector<Entry> entries;
+	for (std::size_t p = 0; p < n; ++p) {
+		if (letsGo(laws[std::size_t(points.material[p])])) continue;
+		const Eigen::Vector3d x = positionOf(points, p) / width;
+		entries.push_back({ { int(std::floor(x[0])), int(std::floor(x[1])), int(std::floor(x[2])) }, p });
+	}
+	std::sort(entries.begin(), entries.end(), before);
+
+	std::vector<std::pair<double, Neighbour>> found;
+	for (const Entry& entry : entries) {
+		const std::size_t p = entry.p;
+		found.clear();
+		for (int row = 0; row < 9; ++row) { // of three bins that follow each other along z
+			const std::array<int, 3> low { entry.bin[0] + row / 3 - 1, entry.bin[1] + row % 3 - 1, entry.bin[2] - 1 };
+			auto                     e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
+			for (; e != entries.end() && e->bin[0] == low[0] && e->bin[1] == low[1] && e->bin[2] <= low[2] + 2; ++e) {
+				const std::size_t     q  = e->p;
+				const Eigen::Vector3d dx = positionOf(points, q) - positionOf(points, p);
+				if (q == p || dx.squaredNorm() > width * width) continue;
+				const Eigen::Vector3d dX       = meanDeformation(points, dim, p, q).inverse() * dx;
+				const double          distance = 2 * dX.norm() / (points.size[p] + points.size[q]);
+				if (distance < reach && isAhead(dX)) found.push_back({ distance, { Slot(q), { float(dX[0]), float(dX[1]), float(dX[2]) } } });
+			}
+		}
+		const std::size_t kept = std::min(found.size(), m_links);
+		std::partial_sort(
+			found.begin(), found.begin() + std::ptrdiff_t(kept), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+		for (std::size_t k = 0; k < kept; ++k)
+			m_neighbours[p * m_links + k] = found[k].second;
+	}
+}
+
+void Continuity::findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls)
+{
+	m_footings.clear();
+	for (std::size_t w = 0; w < walls.size(); ++w) {
+		if (walls[w].kind != Wall::Kind::fixed) continue;
+		for (std::size_t slot = 0; slot < m_place.size(); ++slot) {
+			const std::size_t p = m_place[slot];
+			if (p == nowhere || letsGo(laws[std::size_t(points.material[p])])) continue;
+			const double distance = depth(points, p, walls[w]) / stretchAlong(points, walls[w].axis, p);
+			if (distance < .75 * points.size[p]) m_footings.push_back({ Slot(slot), w, distance }); // the layer next to it
+		}
+	}
+}
+
+} // namespace yade::mpm

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Geometry.hpp"
+#include "Law.hpp"
+#include "Points.hpp"
+
+namespace yade::mpm {
+
+/* Finds numerical fracture: points that were neighbours, and between which the grid no longer carries anything.
+
+For two points dX apart in the undeformed body every smooth motion has
+
+  x_q - x_p = integral of F along dX = (F_p + F_q)/2 dX + O(|dX|^3).
+
+F at a point comes from the velocities of the nodes around it. While two points are moved by the same nodes both sides go on
+agreeing, however far the body is stretched. Points farther apart than the shape functions reach share no node: F stands
+still on both sides and the gap grows. The gap, what the one length has more than the other, is next to nothing in a whole body and
+grows without bound in a torn one; neither F nor the distance alone tells. (Lengths, because a rotation is not a gap.)
+
+The same holds for a point and a fixed wall, whose image behind the wall it is tied to. A slip wall is left out: bodies rebound
+from it. So are points of a law that lets go by itself in tension (Drucker-Prager). */
+class Continuity {
+public:
+	/* Throws StepFailure where a gap is wider than this [m]. Neighbours are looked for where none are known, and where there are
+	points that have not been seen before; their deformation then counts as right. */
+	void check(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls, double cellSize, double widest, double time);
+	/* Points or walls have been put elsewhere by hand. */
+	void forget() { m_place.clear(); }
+
+	struct Gap {
+		std::size_t p = 0, q = nowhere;        // places in the arrays; no q: a wall
+		double      distance = 0, opening = 0; // [m]
+	};
+	/* The widest gap of all, once the neighbours are known. */
+	Gap widest(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
+
+private:
+	using Slot                           = std::uint32_t; // of a point: its place when the neighbours were found
+	static constexpr std::size_t nowhere = std::size_t(-1);
+	struct Neighbour {
+		Slot                 slot = 0;
+		std::array<float, 3> dX { 0, 0, 0 }; // all zero: none
+	};
+	struct Footing { // of a point on a fixed wall
+		Slot        slot;
+		std::size_t wall;
+		double      distance; // undeformed
+	};
+	std::size_t                     m_links = 0;  // a point
+	std::vector<Neighbour>          m_neighbours; // m_links of each slot
+	std::vector<Footing>            m_footings;
+	std::vector<Slot>               m_bodies, m_loose;             // slots of the points with ids 0, 1, ... and -1, -2, ...
+	std::vector<std::size_t>        m_place;                       // of each slot, in the arrays as they stand, or nowhere
+	std::size_t                     m_generation = 0, m_count = 0; // of the points that m_place is good for
+	std::vector<std::array<int, 3>> m_walls;                       // kind, axis and side, as the footings have been found for
+
+	Slot* slotOf(int id);
+	bool  locate(const Points& points);
+	void  findNeighbours(const Points& points, const std::vector<Law>& laws);
+	void  findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
+};
+
+} // namespace yade::mpm
