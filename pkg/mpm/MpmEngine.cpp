@@ -114,6 +114,9 @@ mpm::StepControl MpmEngine::prepare()
 	if (scene->isPeriodic) refuse("O", "periodic", true, "MpmEngine works in scenes that are not periodic; set O.periodic = False");
 	const mpm::Analysis analysisKind = analysisOf(analysis);
 	const int           dim          = mpm::dimension(analysisKind);
+	require(dim == 3 || gravity[2] == 0, self, "gravity", gravity.transpose(), "in a plane analysis nothing moves along z; give a gravity in x and y");
+	require(analysisKind != mpm::Analysis::axisymmetric || gravity[0] == 0, self, "gravity", gravity.transpose(),
+		"in axisymmetry x is the radius; give a gravity along y, the axis");
 	require(!thinning || (analysisKind == mpm::Analysis::planeStress && largeStrain), self, "thinning", thinning,
 		"only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
 

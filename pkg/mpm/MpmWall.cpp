@@ -11,6 +11,7 @@ mpm::Wall MpmWall::toKernel(std::size_t number, int dim) const
 		"give the direction from the wall into the material, e.g. (1,0,0)");
 	require(origin.allFinite(), name, "origin", origin.transpose(), "give a point of the wall's plane [m]");
 	require(velocity.allFinite(), name, "velocity", velocity.transpose(), "give a finite velocity [m/s]");
+	require(dim == 3 || velocity[2] == 0, name, "velocity", velocity.transpose(), "in a plane analysis nothing moves along z; give a velocity in x and y");
 	require(friction >= 0 && std::isfinite(friction), name, "friction", friction, "give a coefficient of friction >= 0");
 
 	mpm::Wall      wall;

@@ -17,7 +17,7 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	every point stands for a cube (with thickness: a square times the thickness) of that size.
 
 	:param region: what to fill: a box as its two corners, ``((x0, y0), (x1, y1))`` in the plane or ``((x0, y0, z0), (x1, y1, z1))``,
-		or a predicate of :yref:`yade.pack`, which takes the points whose centre is inside it
+		or a predicate of :yref:`yade.pack`, which takes the points whose centre is inside it; in a plane problem its section at z = 0
 	:param float spacing: distance between points [m]
 	:param material: a material of the scene, its label or its index; density sets the points' mass
 	:param float thickness: of a plane problem [m]: one layer of points at z = 0, each of volume spacing^2 thickness;
@@ -62,7 +62,8 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	if inside is not None:
 		positions = numpy.ascontiguousarray(positions[[bool(inside(Vector3(*x), 0)) for x in positions.tolist()]].reshape(-1, 3))
 	if len(positions) == 0:
-		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region' % (region, spacing))
+		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region%s'
+			% (region, spacing, ', of which a plane problem takes the section at z = 0' if plane and inside else ''))
 	if axisymmetric and not (positions[:, 0] > 0).all():
 		raise ValueError('mpm.fill: region = %r: with axisymmetric=True x is the radius; give a region at x >= 0' % (region,))
 	return _points(create=True).append(positions, spacing, thickness or 0., axisymmetric, _material(material), Vector3(*velocity), bodies)

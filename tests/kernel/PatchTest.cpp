@@ -50,16 +50,6 @@ struct Stretch {
 	}
 	static double speed(int d, double x) { return lowerSpeed[d] + (upperSpeed[d] - lowerSpeed[d]) * (x - origin[d]) / length[d]; }
 	static double distance(int d, double t) { return length[d] + t * (upperSpeed[d] - lowerSpeed[d]); }
-
-	void run(int steps)
-	{
-		for (int k = 0; k < steps; ++k) {
-			scene.step();
-			for (Wall& wall : scene.walls)
-				wall.position += scene.control.dt * wall.velocity[std::size_t(wall.axis)];
-		}
-		scene.solver->finish();
-	}
 };
 
 /* Stress and internal variables of a material that is stretched along the axes, step by step. */
@@ -132,7 +122,7 @@ TEST(PatchTest, StretchBetweenMovingWalls)
 				control.scheme  = scheme;
 				const int steps = analysis == Analysis::solid ? 20 : 100;
 				Stretch   stretch(analysis, shape, control, { Scene::elastic(1e5, .3, 1000) });
-				stretch.run(steps);
+				stretch.scene.runWithWalls(steps);
 				expectUniform(stretch, analysis, steps);
 			}
 }
@@ -142,7 +132,7 @@ TEST(PatchTest, SingleStepOfGimp)
 	for (Analysis analysis : allAnalyses) {
 		SCOPED_TRACE(name(analysis));
 		Stretch stretch(analysis, ShapeKind::gimp, {}, { Scene::elastic(1e5, .3, 1000) });
-		stretch.run(1);
+		stretch.scene.runWithWalls(1);
 		expectUniform(stretch, analysis, 1);
 	}
 }
@@ -154,7 +144,7 @@ TEST(PatchTest, SmallStrain)
 		StepControl control;
 		control.largeStrain = false;
 		Stretch stretch(analysis, ShapeKind::cubic, control, { Scene::elastic(1e5, .3, 1000) });
-		stretch.run(20);
+		stretch.scene.runWithWalls(20);
 		expectUniform(stretch, analysis, 20);
 	}
 }
@@ -168,7 +158,7 @@ TEST(PatchTest, MaterialsSideBySide)
 		StepControl control;
 		control.scheme = scheme;
 		Stretch stretch(Analysis::uniaxial, ShapeKind::cubic, control, { hysteretic });
-		stretch.run(60);
+		stretch.scene.runWithWalls(60);
 		expectUniform(stretch, Analysis::uniaxial, 60);
 		EXPECT_GT(stretch.scene.points.internal[1][0], 1e-2) << "no plastic strain: the law has not been exercised";
 	}
@@ -215,7 +205,7 @@ TEST(PatchTest, WallsCarryTheStress)
 		for (ShapeKind shape : { ShapeKind::linear, ShapeKind::quadratic, ShapeKind::cubic }) {
 			SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape));
 			Stretch stretch(analysis, shape, {}, { Scene::elastic(1e5, .3, 1000) });
-			stretch.run(20);
+			stretch.scene.runWithWalls(20);
 			const double t     = stretch.scene.control.time;
 			Scene        still = stretch.scene.copy(analysis, shape, .25); // stress of now, walls of now
 			still.step();

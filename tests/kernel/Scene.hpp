@@ -143,6 +143,16 @@ struct Scene {
 			step();
 		solver->finish();
 	}
+	/* The same, walls going along with their velocities as the engine lets them. */
+	void runWithWalls(int steps)
+	{
+		for (int k = 0; k < steps; ++k) {
+			step();
+			for (Wall& wall : walls)
+				wall.position += control.dt * wall.velocity[std::size_t(wall.axis)];
+		}
+		solver->finish();
+	}
 };
 
 } // namespace yade::mpm

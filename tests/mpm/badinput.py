@@ -14,6 +14,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
 from common import *
+from yade import pack
 
 nan, inf = float('nan'), float('inf')
 
@@ -78,6 +79,7 @@ fill('region turned inside out', ValueError, 'region', 'no point', region=((1, 1
 fill('region smaller than the spacing', ValueError, 'spacing', '0.25', region=((0, 0), (.1, .1)))
 fill('infinite region', ValueError, 'unbounded', region=((0, 0), (inf, 1)))
 fill('3D region with thickness', ValueError, 'region', 'two coordinates', region=((0, 0, 0), (1, 1, 1)))
+fill('a section that is empty', ValueError, 'no point', 'section at z = 0', region=pack.inSphere((0, 0, 5), 1))
 fill('plane region without thickness', ValueError, 'region', 'give a thickness', thickness=None)
 fill('label of no material', KeyError, "'lead'", 'elastic', material='lead')
 fill('index of no material', KeyError, '7', 'elastic', material=7)
@@ -129,6 +131,11 @@ for analysis in 'planeStress', 'planeStrain':
 	refused('%s of points without a thickness' % analysis, 'material point 0.thickness = 0', 'mpm.fill(..., thickness=...)', region=((0, 0, 0), (1, 1, .5)), thickness=None, analysis=analysis,
 		fit=good(analysis='3d'))
 
+refused('gravity out of the plane', 'MpmEngine.gravity = ', 'nothing moves along z', gravity=(0, 0, -9.81), fit=good(gravity=(0, -9.81, 0)))
+refused('radial gravity', 'MpmEngine.gravity = ', 'x is the radius', gravity=(1, -9.81, 0), analysis='axisymmetric', thickness=None, axisymmetric=True,
+	fit=good(gravity=(0, -9.81, 0)))
+refused('a wall that moves out of the plane', 'MpmWall 0.velocity = ', 'nothing moves along z', walls=[MpmWall(normal=(0, 1, 0), velocity=(0, 0, 1))], fit=good(walls=[]))
+refused('thinning in 3d', 'MpmEngine.thinning', 'thinning = False', region=((0, 0, 0), (1, 1, .5)), thickness=None, analysis='3d', thinning=True, fit=good(thinning=False))
 refused('axisymmetric analysis of plane points', 'material point 0.thickness = 0.1', 'axisymmetric=True', analysis='axisymmetric', fit=good(analysis='planeStress'))
 refused('a wall behind the axis', 'MpmEngine.walls', 'x is the radius', analysis='axisymmetric', thickness=None, axisymmetric=True,
 	walls=[MpmWall(normal=(1, 0, 0), origin=(-.5, 0, 0))], fit=good(walls=[]))

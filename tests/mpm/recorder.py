@@ -51,6 +51,7 @@ import tempfile
 import xml.etree.ElementTree
 
 from common import *
+from yade import pack
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -129,6 +130,21 @@ for shape in 'linear', 'cubic':
 	near(shape + ': momentum of the nodes', mass @ fields['velocity'], momentum(), 1e-11)
 	near(shape + ': nodes stand on the lattice of cells', x/grid.cellSize, (x/grid.cellSize).round(), 1e-12)
 	equal(shape + ': only what was asked for', sorted(read(recorder.files[-1])[1]), ['velocity'])
+
+# in 3D, a sphere
+O.reset()
+elastic()
+mpm.fill(pack.inSphere((1, 2, 3), .5), spacing=.125, material='elastic', velocity=(1, 2, -3), bodies=False)
+recorder = MpmVtkRecorder(fileName=path('ball-'), iterPeriod=1, recorders=['velocity', 'F', 'grid'])
+O.engines = [MpmEngine(cellSize=.25, analysis='3d'), recorder]
+O.dt = .4*mpm.criticalTimeStep()
+O.run(5, True)
+x, fields, cells = read(recorder.files[-1])
+same('3D: positions', x, mpm.array('position'))
+for name in 'velocity', 'F': same('3D: %s' % name, fields[name].reshape(mpm.array(name).shape), mpm.array(name))
+x, fields, cells = read(recorder.gridFiles[-1])
+near('3D: mass of the nodes', fields['mass'].sum(), mpm.array('mass').sum(), 1e-9)
+near('3D: momentum of the nodes', fields['mass'] @ fields['velocity'], momentum(), 1e-9)
 
 # points without bodies do not know where they began
 block(bodies=False)

@@ -141,6 +141,17 @@ check('it holds on a slope of less than arctan(mu)', abs(mpm.array('position')[:
 ids, grid = slider(0, (1.5*mu*g, -g, 0))
 O.run(2*steps, True)
 near('and slides on a steeper one', mean()[0], .5*mu*g*2*steps*O.dt, .05*.5*mu*g*2*steps*O.dt)
+# in 3D the slip may have any direction in the wall's plane
+ids, grid = block(region=((0, 0, 0), (.5, .5, .25)), spacing=.0625, thickness=None, analysis='3d', material=elastic(young, 0), gravity=(0, 0, -g), damping=.4,
+	walls=[MpmWall(normal=(0, 0, 1), kind='friction', friction=mu)])
+O.run(300, True)
+grid.damping = 0
+for i in ids: O.bodies[i].state.vel = Vector3(1.2, -1.6, 0)
+steps = round(.2/O.dt)
+O.run(steps, True)
+lost = mu*g*steps*O.dt
+near('3D: a block that slides askew loses mu g t along its path', mean(), [1.2 - .6*lost, -1.6 + .8*lost, 0], .02*lost)
+near('3D: mean force on the wall: the weight, and mu of it along the slip', mean_force(grid.walls, 100)[0]/(mpm.array('mass').sum()*g), [mu*.6, -mu*.8, -1], .02)
 ids, grid = block(velocity=(0, 1, 0), walls=[bottom(kind='friction', friction=.5)])
 O.run(50, True)
 near('a contact lets go', mpm.array('velocity'), [(0, 1, 0)]*16, 1e-9)
