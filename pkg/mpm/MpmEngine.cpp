@@ -395,15 +395,19 @@ void MpmEngine::readBodies()
 			continue;
 		}
 		const Body&     body  = *m_links[at].body;
-		const State&    state = *m_links[at].state;
+		State&          state = *m_links[at].state;
 		const Vector3r& force = forces.getForce(id);
 		const Real      sum   = force.sum() + state.pos.sum() + state.vel.sum();
 		if (!(sum - sum == 0)) refuseNonFinite(id, force, state);
-		bool here = true;
+		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
+		bool       here = true, own = before;
 		for (int d = 0; d < dim; ++d) {
-			f[d][p] = force[d], v[d][p] = state.vel[d];
+			f[d][p] = force[d];
 			here &= state.pos[d] == x[d][p] + u[d][p];
+			own = own && state.vel[d] == points.moving[std::size_t(d)][p];
 		}
+		for (int d = 0; d < dim && !own; ++d)
+			v[d][p] = state.vel[d];
 		if (dim == 2 && (state.pos[2] != 0 || state.vel[2] != 0))
 			refuse("O.bodies[" + std::to_string(id) + "].state", "pos, vel", state.pos[2],
 				"in a plane analysis points lie at z = 0 and stay there");
@@ -414,10 +418,7 @@ void MpmEngine::readBodies()
 		}
 		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
 		const bool touched = std::any_of(body.intrs.begin(), body.intrs.end(), [](const auto& i) { return i.second->geom && i.second->phys; });
-		if (touched || !points.touched.empty()) {
-			points.touched.resize(n, 0);
-			points.touched[p] = touched;
-		}
+		if (touched || before) readContact(p, touched, state);
 		if (body.material != m_points->materials[std::size_t(points.material[p])]) {
 			m_points->finish();
 			m_points->changeMaterial(p, body.material);
@@ -435,6 +436,26 @@ void MpmEngine::readBodies()
 	checkPoints(analysisOf(analysis));
 }
 
+/* Torque on a point that touches another body; one that does so no more shows its own velocity again. */
+void MpmEngine::readContact(std::size_t p, bool touched, State& state)
+{
+	mpm::Points& points = m_points->points;
+	if (points.touched.empty()) points.prepareContacts();
+	points.touched[p] = touched;
+	if (touched) {
+		const Vector3r& torque = scene->forces.getTorque(points.id[p]);
+		if (!torque.allFinite())
+			refuse("O.forces", "t(" + std::to_string(points.id[p]) + ")", torque.transpose(),
+				"look at the engine, contact or script that applies it");
+		for (std::size_t k = 0, turns = points.torque.size(); k < turns; ++k)
+			points.torque[k][p] = torque[turns == 3 ? int(k) : 2];
+	} else {
+		for (std::size_t d = 0; d < points.moving.size(); ++d)
+			state.vel[int(d)] = points.velocity[d][p];
+		state.angVel = Vector3r::Zero();
+	}
+}
+
 void MpmEngine::writeBodies()
 {
 	if (m_bodies == 0) return;
@@ -443,12 +464,15 @@ void MpmEngine::writeBodies()
 	bool               outrun = false;
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		if (points.id[p] < 0) continue;
-		const Link& link  = m_links[std::size_t(points.id[p])];
-		State&      state = *link.state;
+		const Link& link    = m_links[std::size_t(points.id[p])];
+		State&      state   = *link.state;
+		const bool  touched = !points.touched.empty() && points.touched[p];
 		for (std::size_t d = 0; d < dim; ++d) {
 			state.pos[int(d)] = points.position[d][p] + points.advance[d][p];
-			state.vel[int(d)] = points.velocity[d][p];
+			state.vel[int(d)] = (touched ? points.moving : points.velocity)[d][p];
 		}
+		for (std::size_t k = 0, turns = points.spin.size(); k < turns && touched; ++k)
+			state.angVel[turns == 3 ? int(k) : 2] = points.spin[k][p];
 		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
 		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;
 	}

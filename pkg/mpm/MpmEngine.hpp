@@ -67,6 +67,7 @@ private:
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
 	bool                         link(std::size_t p);
 	void                         readBodies();
+	void                         readContact(std::size_t p, bool touched, State& state);
 	void                         writeBodies();
 	void                         reportEnergies() const;
 };
