@@ -70,7 +70,7 @@ def python():
 
 
 def gallery():
-	"""Every example with its command, which is required, and its picture; one without is told of."""
+	"""Every example with its command and its picture; one without either is an error."""
 	page = ['# Gallery', '', 'Each example leaves its pictures and tables in the folder `out`.', '']
 	os.makedirs(os.path.join(folder, 'gallery'), exist_ok=True)
 	for script in sorted(glob.glob(os.path.join(root, 'scripts/examples/*.py'))):
@@ -78,10 +78,10 @@ def gallery():
 		doc = ast.get_docstring(ast.parse(open(script).read())) or sys.exit('%s has no docstring' % script)
 		commands = [line.strip() for line in doc.splitlines() if line.strip().startswith('scripts/')] or sys.exit('%s: its docstring does not say the command that runs it' % script)
 		pictures = [p for p in ('gallery/%s.png' % name, 'verification/figures/%s.png' % name) if os.path.exists(os.path.join(root, 'doc', p))]
-		if not pictures: print('%s has no picture: put one into doc/gallery/%s.png' % (script, name))
+		if not pictures: sys.exit('%s has no picture: put the one that it leaves into doc/gallery/%s.png' % (script, name))
 		paragraph = lambda part: '\n'.join(line.strip() for line in part.splitlines())
 		rest = [paragraph(part) for part in doc.split('\n\n')[1:] if not part.strip().startswith('scripts/')]
-		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands + ['```', ''] + ['![%s](%s)' % (name, picture) for picture in pictures[:1]] + ['']
+		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands + ['```', ''] + ['![%s](%s)' % (name, pictures[0]), '']
 		page += ['\n\n'.join(rest).replace('*', '\\*'), '']
 	return '\n'.join(page)
 

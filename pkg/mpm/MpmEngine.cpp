@@ -417,11 +417,6 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
 	const int* const ids       = points.id.data();
 	const auto*      materials = m_points->materials.data();
-	const auto       mark      = [n](std::vector<std::uint8_t>& flags, std::size_t p, unsigned flag) {
-                if (!flag && flags.empty()) return;
-                flags.resize(n, 0);
-                flags[p] = std::uint8_t(flag);
-	};
 
 	bool erased   = false;
 	Real offPlane = 0, nonFinite = 0; // what is not nothing of them
@@ -436,21 +431,29 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 			continue;
 		}
 		body                  = m_links[id].body.get();
-		const State&    state = *m_links[id].state.get();
+		State&          state = *m_links[id].state.get();
 		const Vector3r &force = forces.getForce(ids[p]), &position = state.se3.position, &velocity = state.vel;
 		const Real      sum = force[0] + force[1] + force[2] + position[0] + position[1] + position[2] + velocity[0] + velocity[1] + velocity[2];
 		nonFinite += sum - sum;
-		Real gone = 0;
+		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
+		Real       gone = 0, changed = !before;
 		for (int d = 0; d < dim; ++d) {
-			f[d][p] = force[d], v[d][p] = velocity[d];
+			f[d][p] = force[d];
 			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
+			if (before) changed += std::abs(velocity[d] - points.moving[std::size_t(d)][p]);
 		}
+		for (int d = 0; d < dim && changed != 0; ++d)
+			v[d][p] = velocity[d];
 		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
 		if (gone != 0) moved.push_back(p);
-		mark(points.fixed, p, state.blockedDOFs & 7);
+		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
+			points.fixed.resize(n, 0);
+			points.fixed[p] = fixed;
+		}
 		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
-		const auto real = [](const auto& i) { return i.second->geom && i.second->phys; };
-		mark(points.touched, p, !body->intrs.empty() && std::any_of(body->intrs.begin(), body->intrs.end(), real));
+		const auto real    = [](const auto& i) { return i.second->geom && i.second->phys; };
+		const bool touched = !body->intrs.empty() && std::any_of(body->intrs.begin(), body->intrs.end(), real);
+		if (touched || before) readContact(p, touched, state);
 		if (body->material.get() != materials[points.material[p]].get()) {
 			m_points->finish();
 			m_points->changeMaterial(p, body->material);
@@ -480,6 +483,26 @@ void MpmEngine::refuseStates(int dim) const
 	}
 }
 
+/* Torque on a point that touches another body; one that does so no more shows its own velocity again. */
+void MpmEngine::readContact(std::size_t p, bool touched, State& state)
+{
+	mpm::Points& points = m_points->points;
+	if (points.touched.empty()) points.prepareContacts();
+	points.touched[p] = touched;
+	if (touched) {
+		const Vector3r& torque = scene->forces.getTorque(points.id[p]);
+		if (!torque.allFinite())
+			refuse("O.forces", "t(" + std::to_string(points.id[p]) + ")", torque.transpose(),
+				"look at the engine, contact or script that applies it");
+		for (std::size_t k = 0, turns = points.torque.size(); k < turns; ++k)
+			points.torque[k][p] = torque[turns == 3 ? int(k) : 2];
+	} else {
+		for (std::size_t d = 0; d < points.moving.size(); ++d)
+			state.vel[int(d)] = points.velocity[d][p];
+		state.angVel = Vector3r::Zero();
+	}
+}
+
 void MpmEngine::writeBodies()
 {
 	if (m_bodies == 0) return;
@@ -488,12 +511,15 @@ void MpmEngine::writeBodies()
 	bool               outrun = false;
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		if (points.id[p] < 0) continue;
-		const Link& link  = m_links[std::size_t(points.id[p])];
-		State&      state = *link.state;
+		const Link& link    = m_links[std::size_t(points.id[p])];
+		State&      state   = *link.state;
+		const bool  touched = !points.touched.empty() && points.touched[p];
 		for (std::size_t d = 0; d < dim; ++d) {
 			state.se3.position[int(d)] = points.position[d][p] + points.advance[d][p];
-			state.vel[int(d)]          = points.velocity[d][p];
+			state.vel[int(d)]          = (touched ? points.moving : points.velocity)[d][p];
 		}
+		for (std::size_t k = 0, turns = points.spin.size(); k < turns && touched; ++k)
+			state.angVel[turns == 3 ? int(k) : 2] = points.spin[k][p];
 		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
 		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;
 	}

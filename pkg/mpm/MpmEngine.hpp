@@ -82,6 +82,7 @@ private:
 	void                         readBodies();
 	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
 	void                         refuseStates(int dim) const;
+	void                         readContact(std::size_t p, bool touched, State& state);
 	void                         writeBodies();
 	void                         reportEnergies() const;
 };

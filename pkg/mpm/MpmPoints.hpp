@@ -27,6 +27,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
+	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 } // namespace boost::serialization

@@ -60,7 +60,9 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	if plane: axes.append(numpy.zeros(1))
 	positions = numpy.ascontiguousarray(numpy.stack(numpy.meshgrid(*axes, indexing='ij'), axis=-1).reshape(-1, 3))
 	if inside is not None:
-		positions = numpy.ascontiguousarray(positions[[bool(inside(Vector3(*x), 0)) for x in positions.tolist()]].reshape(-1, 3))
+		candidates = positions.tolist()  # YADE's own predicates take a list for a point, in half the time
+		if not type(inside).__module__.endswith('_packPredicates'): candidates = (Vector3(*x) for x in candidates)
+		positions = positions[numpy.fromiter((inside(x, 0) for x in candidates), bool, len(positions))]
 	if len(positions) == 0:
 		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region%s'
 			% (region, spacing, ', of which a plane problem takes the section at z = 0' if plane and inside else ''))

@@ -2,8 +2,9 @@
 """Scenes of material points and grains: far grains, collider, saving, erasing and adding, time step, energies.
 
 Grains that touch no material point go bit for bit as without MPM. A saved scene goes on bit for bit, from either format and in
-another process, while no body has more than two contacts: with three or more the order in which YADE adds their forces
-depends on when its collider has last run, with or without material points, and the last bits with it.
+another process: with loopOnSortedInteractions whatever touches what, without while no body has more than two contacts.
+With three or more the order in which YADE adds their forces depends on when its collider has last run, with or without
+material points, and the last bits with it.
 
 With arguments this script is that other process: contactscene.py <scene> <steps> <file for the arrays>.
 """
@@ -17,9 +18,10 @@ from common import *
 g = 9.81
 
 
-def engines(after=(), verletDist=.02):
+def engines(after=(), verletDist=.02, ordered=False):
 	return [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb()], verletDist=verletDist),
-		InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])] + list(after)
+		InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()],
+			loopOnSortedInteractions=ordered)] + list(after)
 
 
 def material(): O.materials.append(FrictMat(young=1e7, poisson=.3, density=1000, frictionAngle=.5, label='m'))
@@ -141,6 +143,21 @@ with tempfile.TemporaryDirectory() as folder:
 		check('%s: another process goes on' % ending, another(os.path.realpath(sys.argv[0]), path('half' + ending), steps, path('other.npz')))
 		with numpy.load(path('other.npz')) as other:
 			for name in whole: same('%s, another process: %s' % (ending, name), other[name], whole[name])
+
+# ---- the same with a heap, in which a grain touches four others and the block, and interactions in the order of their ids --------
+ids, balls, grid = scene([((.18 + .1598*i, .18 + .1598*j, .5798 + .1598*k), (.01*j, .01*i, -.02*k), .08) for k in range(2) for j in range(5) for i in range(5)], ordered=True)
+O.dt = .2*mpm.criticalTimeStep()
+O.run(3, True)
+live = touching()
+most = max(sum(b in c for c in live) for b in balls)
+check('grains of the heap have more than two contacts', most > 3, most)
+O.saveTmp('heap')
+O.run(150, True)
+whole = everything()
+O.loadTmp('heap')
+O.run(150, True)
+here = everything()
+for name in whole: same('loopOnSortedInteractions, a heap: %s' % name, here[name], whole[name])
 
 # ---- the time step: GlobalStiffnessTimeStepper knows contacts, MpmEngine the grid -----------------------------------
 stepper = lambda: GlobalStiffnessTimeStepper(timestepSafetyCoefficient=.5)

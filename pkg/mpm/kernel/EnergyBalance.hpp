@@ -89,6 +89,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::keepSums()
 		}
 		for (int d = 0; d < dim; ++d)
 			add(tile, f[d], m_tracking.external[d]);
+		if (!m_points.touched.empty()) spreadCouples(t, m_tracking.external);
 	});
 }
 

@@ -53,6 +53,7 @@ public:
 		} else {
 			forEachTile([&](std::size_t t) { pointsToGrid<true>(t); });
 		}
+		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { spreadCouples(t, m_force); });
 		if (energy) keepSums();
 		updateNodes();
 		const double kineticBefore = energy ? kineticEnergy() : 0;
@@ -62,11 +63,11 @@ public:
 			clear(m_velocity);
 			forEachTile([&](std::size_t t) { gridToPoints<true>(t); });
 			remapVelocities();
-			if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { moveTouchedPoints(t); });
 		} else {
 			forEachTile([&](std::size_t t) { gridToPoints<false>(t); });
 			std::swap(m_velocity, m_momentum); // the updated velocities themselves
 		}
+		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { moveTouchedPoints(t); });
 		m_stressControl = control;
 		m_pending       = true;
 		if (control.scheme == Scheme::usf) finishPositions();
@@ -743,33 +744,60 @@ private:
 		divideByMass(m_velocity);
 		m_band.unfold(m_walls, m_velocity, true);
 	}
-	/* Points in contact move with the velocities that the stress sees. A contact's force follows the points'
-	positions; moved by the velocities before the transfer back it would lose energy at first order in dt (doc/method.md). */
+	/* Points in contact move with the velocities that the stress sees, and turn with the material: spin = curl v / 2. A
+	contact's force follows the points' motion; any other velocity would lose energy (doc/method.md). */
 	void moveTouchedPoints(std::size_t t)
 	{
-		const Tile& tile = m_grid.tiles()[t];
+		const Tile& tile   = m_grid.tiles()[t];
+		bool        loaded = false;
+		Patch       v[dim];
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
 			if (!m_points.touched[p]) continue;
-			double v[dim] {};
-			gatherVelocity(tile, weights(tile, p), v);
+			for (int d = 0; d < dim && !loaded; ++d)
+				read(tile, m_velocity[d], v[d]);
+			loaded          = true;
+			const Weights w = weights(tile, p);
+			double        grad[dim][dim];
+			for (int d = 0; d < dim; ++d)
+				gatherGradient(w, v[d], grad[d]);
+			for (int k = 0; k < turns; ++k)
+				m_points.spin[k][p] = .5 * (grad[to(k)][from(k)] - grad[from(k)][to(k)]);
 			for (int d = 0; d < dim; ++d) {
-				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1) continue;
-				m_points.advance[d][p] = m_control.dt * v[d];
+				const bool fixed      = !m_points.fixed.empty() && m_points.fixed[p] >> d & 1;
+				m_points.moving[d][p] = fixed ? m_points.velocity[d][p] : gather(w, v[d]);
+				if (fixed) continue;
+				m_points.advance[d][p] = m_control.dt * m_points.moving[d][p];
 				const double xi        = m_geometry.xi(d, m_points.position[d][p] + m_points.advance[d][p]);
 				const double inTile    = xi - Shape::shift(halfSize(d, p)) - tile.index[d] * Grid::width;
 				m_reports[t].left |= !(inTile >= 0 && inTile < Grid::width && xi >= m_geometry.xiMin[d] && xi <= m_geometry.xiMax[d]);
 			}
 		}
 	}
-	/* sum N_ip v_i of the mapped velocities, without a patch: few points ask. */
-	void gatherVelocity(const Tile& tile, const Weights& w, double (&v)[dim]) const
+	/* Torques on points in contact: f_i += T_p x grad N_ip / 2, which has no resultant, the moment T_p and the power T_p . spin. */
+	void spreadCouples(std::size_t t, NodeVector<dim>& field)
 	{
-		Patch patch;
-		for (int d = 0; d < dim; ++d) {
-			read(tile, m_velocity[d], patch);
-			v[d] = gather(w, patch);
+		const Tile& tile  = m_grid.tiles()[t];
+		bool        found = false;
+		Patch       f[dim];
+		for (std::size_t p = tile.begin; p < tile.end; ++p) {
+			if (!m_points.touched[p]) continue;
+			for (int d = 0; d < dim && !found; ++d)
+				std::fill(std::begin(f[d]), std::end(f[d]), 0.);
+			found = true;
+			forEachNode(weights(tile, p), [&](int i, double, const std::array<double, dim>& grad) {
+				for (int k = 0; k < turns; ++k) {
+					f[to(k)][i] += .5 * m_points.torque[k][p] * grad[from(k)];
+					f[from(k)][i] -= .5 * m_points.torque[k][p] * grad[to(k)];
+				}
+			});
 		}
+		for (int d = 0; d < dim && found; ++d)
+			add(tile, f[d], field[d]);
 	}
+	/* Rotation k turns axis from(k) towards to(k): about x, y, z in space, about z in the plane. */
+	static constexpr int turns = dim == 3 ? 3 : dim - 1;
+	static constexpr int from(int k) { return dim == 3 ? (k + 1) % 3 : 0; }
+	static constexpr int to(int k) { return dim == 3 ? (k + 2) % 3 : dim - 1; }
 	void divideByMass(NodeVector<dim>& field) const
 	{
 		forEachNodeRange([&](std::size_t begin, std::size_t end) {

@@ -32,7 +32,8 @@ struct Energies {
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched (no contacts). */
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched, moving, spin, torque (no contacts).
+*/
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
 	std::vector<int>          material;        // index into the scene's table of laws
@@ -48,6 +49,8 @@ struct Points {
 	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
 	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
 	std::vector<std::uint8_t> touched;                        // whether force follows the position: a contact's does; said anew at every step
+	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
+	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
 
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
 
@@ -58,7 +61,7 @@ struct Points {
 	{
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
-		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &advance, &force })
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &advance, &force, &moving, &spin, &torque })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -100,7 +103,17 @@ struct Points {
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
-		if (!touched.empty()) touched.resize(n, 0);
+		if (!touched.empty()) prepareContacts();
+	}
+	/* Gives every point what points in contact need. */
+	void prepareContacts()
+	{
+		const std::size_t n = count(), dim = advance.size(), turns = dim == 3 ? 3 : dim - 1;
+		touched.resize(n, 0);
+		moving.resize(dim), spin.resize(turns), torque.resize(turns);
+		for (Columns* columns : { &moving, &spin, &torque })
+			for (Column& column : *columns)
+				column.resize(n, 0.);
 	}
 
 	/* Keeps the points order[0], order[1], ... in this order and drops the others. */
