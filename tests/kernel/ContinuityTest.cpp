@@ -160,7 +160,7 @@ TEST(ContinuityTest, BodiesPartAgain)
 	EXPECT_LT(w.run(3500, 50), .05);
 }
 
-TEST(ContinuityTest, TaylorsBar)
+TEST(LongContinuityTest, TaylorsBar)
 {
 	Watched      w;
 	Scene&       s   = w.scene;

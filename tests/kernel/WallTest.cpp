@@ -163,7 +163,7 @@ TEST(WallTest, BalanceOfMomentumInEveryStep)
 }
 
 /* A block that has been damped to rest, then 1 step without damping. 10 cells of kinetic ringing are damped by 0.5. */
-TEST(WallTest, ForceUnderABlockAtRestIsItsWeight)
+TEST(LongWallTest, ForceUnderABlockAtRestIsItsWeight)
 {
 	using K = Wall::Kind;
 	for (Analysis analysis : { Analysis::uniaxial, Analysis::planeStrain, Analysis::solid })
@@ -203,7 +203,7 @@ TEST(WallTest, ForceUnderABlockAtRestIsItsWeight)
 
 /* Settled under the normal part of gravity, then the tangential part is switched on. Ringing in shear about the mean
 acceleration averages out over some periods: 2 %. */
-TEST(WallTest, BlockOnASlope)
+TEST(LongWallTest, BlockOnASlope)
 {
 	for (ShapeKind shape : { ShapeKind::linear, ShapeKind::quadratic, ShapeKind::cubic })
 		for (int side : { 1, -1 })
