@@ -58,7 +58,10 @@ public:
 		m_tiles.clear();
 		for (const Run& run : runs)
 			if (m_tiles.empty() || m_tiles.back().index != run.index) m_tiles.push_back({ run.index, 0, 0, {} });
-		auto before = [](const Tile& a, const Tile& b) { return a.index < b.index; };
+		auto before = [](const Tile& a, const Tile& b) { // colour by colour, as forEachTile() goes through memory
+			const int ca = colourOf(a.index), cb = colourOf(b.index);
+			return ca != cb ? ca < cb : a.index < b.index;
+		};
 		std::sort(m_tiles.begin(), m_tiles.end(), before);
 		m_tiles.erase(std::unique(m_tiles.begin(), m_tiles.end(), [](const Tile& a, const Tile& b) { return a.index == b.index; }), m_tiles.end());
 		std::vector<std::size_t> tileOf; // a run
@@ -112,6 +115,13 @@ private:
 	std::array<std::vector<int>, corners> m_colours;
 	std::vector<Index>                    m_blocks;
 
+	static int colourOf(const Index& index)
+	{
+		int parity = 0;
+		for (int d = 0; d < dim; ++d)
+			parity |= (index[d] & 1) << d;
+		return parity;
+	}
 	struct Run { // of points that follow each other and share a tile
 		std::size_t begin, end;
 		Index       index;
@@ -169,11 +179,8 @@ private:
 		for (auto& colour : m_colours)
 			colour.clear();
 		for (std::size_t t = 0; t < m_tiles.size(); ++t) {
-			Tile& tile   = m_tiles[t];
-			int   parity = 0;
-			for (int d = 0; d < dim; ++d)
-				parity |= (tile.index[d] & 1) << d;
-			m_colours[parity].push_back(int(t));
+			Tile& tile = m_tiles[t];
+			m_colours[colourOf(tile.index)].push_back(int(t));
 			for (int c = 0; c < corners; ++c)
 				tile.blocks[c] = int(std::lower_bound(m_blocks.begin(), m_blocks.end(), neighbour(tile.index, c)) - m_blocks.begin());
 		}
