@@ -25,7 +25,7 @@ public:
 		((Real, pinchingRate, 1, , "Rate at which pinching grows with e, > 0 [-]."))
 		((Real, pinchingLevel, 0, , "f/sigma_y about which pinching acts, in [0, 1) [-]."))
 		((Real, pinchingWidth, .2, , "Width of that, over sigma_y, > 0 [-]."))
-		((Real, reloading, 0, , "Plasticity-compatible reloading (Charalampakis & Koumousis, J. Sound Vib. 322 (2009) 954) [-]: 0 is off; an exponent r >= 1 scales H1 by ((f - f_min)/(f_rev - f_min))^r while reloading below the last reversal f_rev; float('inf') reloads elastically up to it and closes short cycles exactly. A finite r leaves part of their drift."))
+		((Real, reloading, 0, , "Plasticity-compatible reloading (Charalampakis & Koumousis, J. Sound Vib. 322 (2009) 954) [-]: 0 is off; an exponent r >= 1 scales H1 by ((f - f_0)/(f_rev - f_0))^r while f, fallen from f_rev to f_0, grows again; float('inf') reloads elastically up to f_rev and closes exactly the cycles that unload to no less than a quarter of it. A finite r leaves part of their drift."))
 		((std::string, loadingRule, "normal", , "What H2 takes the sign of: 'normal', a.D.strain rate; 'paper', strain . stress rate as eq. 26 prints it, with the elastic stress rate, which breaks f <= sigma_y, is there for comparison only and goes with none of the options above."))
 		,
 		createIndex();

@@ -121,9 +121,9 @@ template <class S> void comparePaths(const Law& law, InstructionSet set, bool la
 				if (columns > 0) flow = std::max(flow, point.plasticStrain());
 				ASSERT_TRUE(std::isfinite(block.sigma[0][l]));
 			}
-			// reloading divides by f_rev - f_min, which may be small, and other rounding has other digits left of it
-			const bool cancels = law.kind == Law::Kind::boucWen && law.boucWen.remembers() && set != InstructionSet::sse2;
-			ASSERT_LT(worst, cancels ? 1e-6 : 1e-11) << "path " << path << ", increment " << i;
+			// a short reloading is stiff, as n = r/(f_rev - f_0) would be, and sub-steps at the limit of stability amplify rounding
+			const bool stiff = law.kind == Law::Kind::boucWen && law.boucWen.remembers() && std::isfinite(law.boucWen.reloading);
+			ASSERT_LT(worst, stiff ? 1e-6 : 1e-11) << "path " << path << ", increment " << i;
 		}
 	}
 	if (columns > 0) {

@@ -23,7 +23,7 @@ Options, each of which is off by default and then costs nothing (doc/law.md has 
   strength degradation      H1 is multiplied by nu = 1 + d_nu e, with e the integral of f lambda' over sigma_y^2 / E
   stiffness degradation     D is divided by 1 + d_eta e, as far as the second law allows
   pinching                  slip on loading, about f = level sigma_y, that grows with e
-  reloading                 below the last reversal, H1 shrinks by ((f - f_min)/(f_rev - f_min))^r */
+  reloading                 below f_rev, where it had unloaded from, H1 shrinks by ((f - f_0)/(f_rev - f_0))^r */
 struct BoucWenParameters {
 	/* What H2 takes the sign of: a^T D eps', or eps^T sigma' as eq. 26 has it in print, with sigma' = D eps' because the
 	tangent is what is being sought. The latter breaks f <= sigma_y and lambda' >= 0; it is there to compare with. */
@@ -55,9 +55,9 @@ struct BoucWenParameters {
 	bool paper() const { return loadingRule == LoadingRule::paper; }
 	bool plain() const { return !isotropic.active() && !degrades() && !remembers() && !paper(); }
 
-	/* Internal variables. Tensors: eta; the xi of the last reversal, or for the paper's rule the strain (tensor shear).
-	Scalars: p; e and the growth of the compliance; f at the last reversal and the least f since. */
-	int tensors() const { return 1 + (remembers() || paper()); }
+	/* Internal variables. Tensors: eta; for the paper's rule the strain (tensor shear). Scalars: p; e and the growth of the
+	compliance; f_rev and f_0. */
+	int tensors() const { return 1 + paper(); }
 	int scalars() const { return 1 + 2 * degrades() + 2 * remembers(); }
 };
 
@@ -94,70 +94,71 @@ namespace detail {
 			xi[k] = y[k][l] - y[S::N + k][l];
 	}
 
-	/* The last turn from loading to unloading, until it is reached again or the stress has gone to the other side. */
-	template <class S, int W> struct Reversal {
-		Reals<W> xi[S::N] {}, f {}, least {}; // f = 0: none
-		Reals<W> elastic {};                  // whether the sub-step under way stays below f
-		Reals<W> unloading {}, reached {};    // whether the sub-step under way unloads; ends at f
+	/* What compatible reloading remembers: the f up to which it goes, limit, and that from which, origin. Unloading moves both
+	continuously and loading at the limit makes them f, so that what follows depends continuously on the path (doc/law.md). */
+	template <class S, int W> struct Reloading {
+		static constexpr double depth = 4; // limit <= depth f
 
-		/* Positive while xi is on its side. */
-		double along(const double* Mxi, int l) const
+		Reals<W> limit {}, origin {};
+		// the sub-step under way: whether it unloads, has no flow where it loads, loads at the limit, is cut short; where it begins
+		Reals<W> unloads {}, elastic {}, atLimit {}, stops {}, xi[S::N] {};
+
+		/* Before a sub-step, which ends at the latest where f turns or where elastic reloading meets the limit. */
+		void begin(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, Reals<W>& step)
 		{
-			double sum = 0;
-			for (int k = 0; k < S::N; ++k)
-				sum += Mxi[k] * xi[k][l];
-			return sum;
-		}
-		/* Before a sub-step of the lanes that have a way to go: notes a turn, and shortens elastic reloading to what is left up
-		to f, or to where the stress leaves its side. */
-		void begin(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, const Reals<W>& done, Reals<W>& step)
-		{
-			constexpr int N    = S::N;
-			const bool    stop = std::isinf(law.reloading);
+			const bool sharp = std::isinf(law.reloading);
 			forLanes<W>([&](int l) {
-				double x[N], m[N], de[N], Mde[N];
-				backStressFree<S>(y, l, x);
+				double       x[S::N], m[S::N], de[S::N];
 				const double softening = 1 / (1 + y[BoucWenVector<S, true>::compliance][l]);
-				for (int k = 0; k < N; ++k)
-					de[k] = softening * De[k][l];
-				S::normal(x, 1, m), S::normal(de, 1, Mde);
-				const double f2 = S::mises2(x), mDe = dot<S>(m, de);
-				const bool   back = mDe < 0, turns = back & (f[l] == 0) & (f2 > 0) & (done[l] < 1);
-				unloading[l] = back;
-				f[l] = turns ? std::sqrt(f2) : f[l], least[l] = turns ? std::sqrt(f2) : least[l];
-				for (int k = 0; k < N; ++k)
-					xi[k][l] = turns ? x[k] : xi[k][l];
-				const bool up = stop & !back & (f[l] > 0);
-				elastic[l]    = up;
-
-				const double A = S::mises2(de), C = f2 - f[l] * f[l], side = along(m, l), turn = along(Mde, l);
-				const double t = -C / (mDe + std::sqrt(std::max(0., mDe * mDe - A * C))), across = turn < 0 ? -side / turn : step[l];
-				double       limit = t < step[l] ? t : step[l];
-				limit              = std::max(0., across < limit ? across : limit);
-				reached[l]         = up & (limit < step[l]);
-				step[l]            = up ? limit : step[l];
+				backStressFree<S>(y, l, x);
+				for (int k = 0; k < S::N; ++k)
+					xi[k][l] = x[k], de[k] = softening * De[k][l];
+				S::normal(x, 1, m);
+				// of an elastic path f^2 = f2 + 2 t B + t^2 A
+				const double f2 = S::mises2(x), B = dot<S>(m, de), A = S::mises2(de), C = f2 - limit[l] * limit[l];
+				const double turn = -B / (A > 0 ? A : 1), meet = -C / (B + std::sqrt(std::max(0., B * B - A * C)));
+				// what is nearer than rounding has been reached
+				const bool   back = turn > 1e-9, below = C < -2e-9 * f2, up = !back & below & sharp & (meet > 1e-9);
+				const double most = back ? turn : up ? meet : step[l];
+				unloads[l] = back, elastic[l] = back | up, atLimit[l] = !back & !up & (sharp | !below), stops[l] = most < step[l];
+				step[l] = most < step[l] ? most : step[l];
 			});
 		}
 		/* After it, where it is accepted. */
 		void end(const Reals<W>* y, const Reals<W>& done, const Reals<W>& accepted)
 		{
 			forLanes<W>([&](int l) {
-				double x[S::N], m[S::N];
+				double x[S::N], from[S::N], way[S::N], turned[S::N], m[S::N];
 				backStressFree<S>(y, l, x);
-				S::normal(x, 1, m);
-				const double f2    = S::mises2(x);
-				const bool   back  = unloading[l] != 0;
-				const bool   past  = (reached[l] != 0) | (!back & (f2 >= f[l] * f[l])) | !(along(m, l) > 0);
-				const bool   taken = (accepted[l] != 0) & (done[l] < 1);
-				least[l]           = taken & back ? std::sqrt(f2) : least[l];
-				f[l]               = taken & past ? 0 : f[l];
+				for (int k = 0; k < S::N; ++k)
+					from[k] = xi[k][l], way[k] = x[k] - from[k];
+				S::normal(from, 1, m);
+				const double A = S::mises2(way), turn = -dot<S>(m, way) / (A > 0 ? A : 1), t = turn < 0 ? 0 : turn < 1 ? turn : 1;
+				for (int k = 0; k < S::N; ++k)
+					turned[k] = from[k] + t * way[k];
+				const double before = std::sqrt(S::mises2(from)), least = std::sqrt(S::mises2(turned)), after = std::sqrt(S::mises2(x));
+				// (1 - origin/limit) (1 - f/limit)^3 stays
+				const double over = limit[l] > 0 ? 1 / limit[l] : 0, ratio = std::max(least * over, 1 / depth),
+					     lower  = std::min(limit[l], depth * least);
+				const double closer = (1 - before * over) / (ratio < 1 ? 1 - ratio : 1);
+				const double start  = std::min(least, lower * (1 - (1 - origin[l] * over) * closer * closer * closer));
+				const bool   taken = (accepted[l] != 0) & (done[l] < 1), back = taken & (unloads[l] != 0);
+				const bool   meets = taken & (unloads[l] == 0) & ((atLimit[l] != 0) | (after >= (1 - 1e-9) * limit[l]));
+				limit[l]           = back ? lower : meets ? after : limit[l];
+				origin[l]          = back ? start : meets ? after : origin[l];
 			});
+		}
+		/* The factor on H1 of a lane that loads is this to the power r. */
+		double part(const Reals<W>& f, int l) const
+		{
+			const bool below = (atLimit[l] == 0) & (f[l] < limit[l]);
+			return below ? std::max(0., f[l] - origin[l]) / std::max(limit[l] - origin[l], 1e-9 * limit[l]) : 1;
 		}
 	};
 
 	/* The part of the loading that flows, with the options: H1 H2, where H1 comes in and goes out. */
 	template <class S, int W>
-	void flowRatio(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, const Reversal<S, W>& reversal, const Reals<W>& f,
+	void flowRatio(const BoucWenParameters& law, const Reals<W>* y, const Reals<W>* De, const Reloading<S, W>& reloading, const Reals<W>& f,
 		const Reals<W>& radius, const Reals<W>& mDe, Reals<W>& H1)
 	{
 		using Y               = BoucWenVector<S, true>;
@@ -176,14 +177,11 @@ namespace detail {
 		Reals<W> loads = H1;
 		if (law.remembers()) {
 			Reals<W> part, factor;
-			forLanes<W>([&](int l) {
-				double x[N], m[N];
-				backStressFree<S>(y, l, x);
-				S::normal(x, 1, m);
-				const bool below = (reversal.f[l] > 0) & (f[l] < reversal.f[l]) & (reversal.along(m, l) > 0);
-				part[l]          = below ? std::max(0., f[l] - reversal.least[l]) / (reversal.f[l] - reversal.least[l]) : 1;
-			});
-			power(part, law.reloading, 0, factor);
+			forLanes<W>([&](int l) { part[l] = reloading.part(f, l); });
+			if (std::isinf(law.reloading))
+				forLanes<W>([&](int l) { factor[l] = part[l] < 1 ? 0 : 1; });
+			else
+				power(part, law.reloading, 0, factor);
 			forLanes<W>([&](int l) { loads[l] *= factor[l]; });
 		}
 		if (law.pinching != 0) // Baber & Noori's factor on the loading stiffness 1 - H1, with the slip along a
@@ -192,14 +190,14 @@ namespace detail {
 				const double h   = 1 + law.pinching * std::expm1(-law.pinchingRate * y[Y::e][l]) * std::exp(-off * off);
 				loads[l]         = 1 - h * (1 - loads[l]);
 			}
-		forLanes<W>([&](int l) { H1[l] = mDe[l] > 0 ? (reversal.elastic[l] != 0 ? 0 : loads[l]) : H1[l] * unloading; });
+		forLanes<W>([&](int l) { H1[l] = mDe[l] > 0 ? (reloading.elastic[l] != 0 ? 0 : loads[l]) : H1[l] * unloading; });
 	}
 
 	/* dy over a strain increment and the elastic stress De that belongs to it, and the sign of loading. With m = M xi = f a:
 	   lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio.
 	Up to z = f/sigma_y = small, the flow is known to be none. */
 	template <class S, bool options, int W>
-	void boucWenRate(const BoucWenParameters& law, double small, const Reversal<S, W>& reversal, const Reals<W>* y, const Reals<W>* strain,
+	void boucWenRate(const BoucWenParameters& law, double small, const Reloading<S, W>& reloading, const Reals<W>* y, const Reals<W>* strain,
 		const Reals<W>* De, Reals<W>* dy, Reals<W>& mDe)
 	{
 		using Y          = BoucWenVector<S, options>;
@@ -235,7 +233,7 @@ namespace detail {
 		});
 		power(z, law.n, small, H);
 		if constexpr (options)
-			flowRatio(law, y, De, reversal, f, radius, mDe, H);
+			flowRatio(law, y, De, reloading, f, radius, mDe, H);
 		else
 			forLanes<W>([&](int l) { H[l] *= mDe[l] > 0 ? loading : unloading; });
 		// no direction at f = 0; elastic within the tolerance
@@ -270,7 +268,7 @@ namespace detail {
 
 	/* Modified Euler pairs with error control, after Sloan, every lane in sub-steps of its own until the last has arrived. */
 	template <class S, bool options, int W>
-	void boucWenIntegrate(const BoucWenParameters& law, const Reals<W>* strain, Reversal<S, W>& reversal, Reals<W>* y, int* subSteps)
+	void boucWenIntegrate(const BoucWenParameters& law, const Reals<W>* strain, Reloading<S, W>& reloading, Reals<W>* y, int* subSteps)
 	{
 		using Y         = BoucWenVector<S, options>;
 		constexpr int N = S::N, size = Y::size;
@@ -291,17 +289,17 @@ namespace detail {
 		});
 		for (;;) {
 			forLanes<W>([&](int l) { step[l] = std::min(step[l], 1 - done[l]); });
-			if (remembers) reversal.begin(law, y, De, done, step);
+			if (remembers) reloading.begin(law, y, De, step);
 			forLanes<W>([&](int l) {
 				for (int k = 0; k < N; ++k)
 					part[k][l] = step[l] * De[k][l], partStrain[k][l] = step[l] * strain[k][l];
 			});
-			boucWenRate<S, options>(law, small, reversal, y, partStrain, part, dy1, mDe1);
+			boucWenRate<S, options>(law, small, reloading, y, partStrain, part, dy1, mDe1);
 			forLanes<W>([&](int l) {
 				for (int k = 0; k < size; ++k)
 					euler[k][l] = y[k][l] + dy1[k][l];
 			});
-			boucWenRate<S, options>(law, small, reversal, euler, partStrain, part, dy2, mDe2);
+			boucWenRate<S, options>(law, small, reloading, euler, partStrain, part, dy2, mDe2);
 
 			forLanes<W>([&](int l) {
 				const double elastic     = options ? 2 / (1 + y[options ? Y::compliance : 0][l]) : 2;
@@ -329,25 +327,25 @@ namespace detail {
 			if (subSteps)
 				for (int l = 0; l < W; ++l)
 					*subSteps += done[l] < 1 && accepted[l] != 0;
-			if (remembers) reversal.end(y, done, accepted);
 			if (!(options && law.paper()))
 				forLanes<W>([&](int l) {
 					// f = sigma_y is a fixed point that the rounding of a sub-step may overshoot
-					double xi[N];
-					backStressFree<S>(y, l, xi);
+					double xi[N], b[N];
+					backStressFree<S>(y, l, xi), S::back(xi, b);
 					const double f2     = S::mises2(xi);
 					const bool   over   = f2 > radius[l] * radius[l] * (1 + 2e-10);
 					const double excess = over ? 1 - radius[l] / std::sqrt(over ? f2 : 1) : 0;
 					for (int k = 0; k < N; ++k)
-						y[k][l] -= excess * xi[k];
+						y[k][l] -= excess * b[k];
 				});
+			if (remembers) reloading.end(y, done, accepted);
 
 			if (!anyLane<W>([&](int l) { return (accepted[l] == 0) | (step[l] < 1 - done[l]); })) return;
 			forLanes<W>([&](int l) {
 				const bool   good   = accepted[l] != 0;
 				const double factor = .9 * std::sqrt(std::sqrt(admitted / error2[l]));
 				const double shrink = step[l] * (factor > .1 ? factor : .1), grow = step[l] * (factor < 2 ? factor : 2); // .1 and 2 for NaN
-				const double next = done[l] + step[l], longer = failed[l] != 0 ? step[l] : grow, after = reversal.reached[l] != 0 ? 1 : longer;
+				const double next = done[l] + step[l], longer = failed[l] != 0 ? step[l] : grow, after = reloading.stops[l] != 0 ? 1 : longer;
 				const double arrived = step[l] < 1 - done[l] ? next : 1;
 				done[l]              = good ? arrived : done[l];
 				step[l]              = good ? after : shrink;
@@ -369,10 +367,10 @@ sum of the flows counts. The next sub-step is scaled by 0.9 sqrt(admitted/error)
 template <class S, int W>
 void boucWenUpdate(const BoucWenParameters& law, const Reals<W>* strain, Reals<W>* sigma, Reals<W>* internal, Reals<W>& dissipation, int* subSteps = nullptr)
 {
-	constexpr int          N = S::N;
-	detail::Reversal<S, W> reversal;
-	Reals<W>*              scalars = internal + law.tensors() * N;
-	auto                   run     = [&](auto options) {
+	constexpr int           N = S::N;
+	detail::Reloading<S, W> reloading;
+	Reals<W>*               scalars = internal + law.tensors() * N;
+	auto                    run     = [&](auto options) {
                 using Y = detail::BoucWenVector<S, options.value>;
                 Reals<W> y[Y::size] {};
                 std::copy(sigma, sigma + N, y), std::copy(internal, internal + N, y + Y::eta);
@@ -381,18 +379,18 @@ void boucWenUpdate(const BoucWenParameters& law, const Reals<W>* strain, Reals<W
                         if (law.degrades()) y[Y::e] = scalars[1], y[Y::compliance] = scalars[2];
                         if (law.remembers()) {
                                 const Reals<W>* kept = scalars + law.scalars() - 2;
-                                reversal.f = kept[0], reversal.least = kept[1], std::copy(internal + N, internal + 2 * N, reversal.xi);
+                                reloading.limit = kept[0], reloading.origin = kept[1];
                         }
                         if (law.paper()) std::copy(internal + N, internal + 2 * N, y + Y::strain);
                 }
-                detail::boucWenIntegrate<S, options.value>(law, strain, reversal, y, subSteps);
+                detail::boucWenIntegrate<S, options.value>(law, strain, reloading, y, subSteps);
                 std::copy(y, y + N, sigma), std::copy(y + Y::eta, y + Y::eta + N, internal);
                 scalars[0] = y[Y::p], dissipation = y[Y::dissipation];
                 if constexpr (options.value) {
                         if (law.degrades()) scalars[1] = y[Y::e], scalars[2] = y[Y::compliance];
                         if (law.remembers()) {
                                 Reals<W>* kept = scalars + law.scalars() - 2;
-                                kept[0] = reversal.f, kept[1] = reversal.least, std::copy(reversal.xi, reversal.xi + N, internal + N);
+                                kept[0] = reloading.limit, kept[1] = reloading.origin;
                         }
                         if (law.paper()) std::copy(y + Y::strain, y + Y::strain + N, internal + N);
                 }

@@ -48,8 +48,8 @@ struct Internals {
 		return {};
 	}
 	int columns(int components) const { return tensors * components + scalars; }
-	/* Of the law that has most: two tensors; p, energy and compliance, two stresses of a reversal. */
-	static constexpr int most(int components) { return 2 * components + 5; }
+	/* Of the laws that have most: two tensors and p; a tensor, p, energy and compliance, two stresses that are remembered. */
+	static constexpr int most(int components) { return components + (components > 4 ? components + 1 : 5); }
 };
 
 /* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. Adds
