@@ -119,6 +119,8 @@ mpm::StepControl MpmEngine::prepare()
 		"in axisymmetry x is the radius; give a gravity along y, the axis");
 	require(!thinning || (analysisKind == mpm::Analysis::planeStress && largeStrain), self, "thinning", thinning,
 		"only large-strain plane stress has a thickness that can follow the strain; set thinning = False");
+	require(!meanDilatation || analysisKind != mpm::Analysis::planeStress, self, "meanDilatation", meanDilatation,
+		"in plane stress the thickness is free to keep the volume, and nothing locks; set meanDilatation = False");
 
 	if (m_checkedEngines.size() != scene->engines.size()
 		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
@@ -139,7 +141,7 @@ mpm::StepControl MpmEngine::prepare()
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
 	control.largeStrain = largeStrain, control.thinning = thinning;
-	control.trackEnergy = scene->trackEnergy;
+	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation;
 	control.threads     = ompThreads > 0 ? ompThreads : omp_get_max_threads();
 	return control;
 }

@@ -124,6 +124,7 @@ refused('analysis', "MpmEngine.analysis = 'plane'", "choose one of 'planeStress'
 refused('shape', "MpmEngine.shape = 'spline'", "choose one of 'linear', 'gimp', 'quadratic', 'cubic'", shape='spline', fit=good(shape='linear'))
 refused('scheme', "MpmEngine.scheme = 'musl'", "choose one of 'USF', 'USL', 'MUSL'", scheme='musl', fit=good(scheme='USL'))
 refused('thinning in plane strain', 'MpmEngine.thinning', 'thinning = False', analysis='planeStrain', thinning=True, fit=good(thinning=False))
+refused('mean dilatation in plane stress', 'MpmEngine.meanDilatation', 'meanDilatation = False', meanDilatation=True, fit=good(meanDilatation=False))
 refused('thinning in small strain', 'MpmEngine.thinning', 'thinning = False', largeStrain=False, thinning=True, fit=good(thinning=False))
 refused('GIMP in cells smaller than the points', 'MpmEngine.cellSize = 0.2', 'GIMP', shape='gimp', cellSize=.2, fit=good(cellSize=.25))
 refused('3d analysis of points with a thickness', 'material point 0.thickness = 0.1', 'without thickness', analysis='3d', fit=good(analysis='planeStress'))

@@ -44,7 +44,12 @@ public:
 			forEachTile([&](std::size_t t) { pointsToGrid<false>(t); });
 			startVelocities();
 			m_stressControl = control;
-			forEachTile([&](std::size_t t) { stressThenForce(t); });
+			if (averages(control)) {
+				clearSums();
+				forEachTile([&](std::size_t t) { updateTileStress(t), pointsToGrid<true>(t); });
+			} else {
+				forEachTile([&](std::size_t t) { stressThenForce(t); });
+			}
 			checkStress();
 		} else if (m_pending) {
 			forEachTile([&](std::size_t t) { updateTileStress(t), pointsToGrid<true>(t); });
@@ -155,6 +160,16 @@ private:
 	bool                    m_laid         = false; // blocks, node arrays and bands are those of the geometry
 	bool                    m_known        = false; // points are in the tiles of m_grid, but where a report says that they have left
 	bool                    m_sorted = false, m_pending = false;
+
+	// MeanDilatation.hpp
+	static constexpr int      dilating = normals<S>() < 3 ? 0 : hoop ? 3 : dim; // normal strains that change a volume
+	static bool               averages(const StepControl& control) { return dilating > 0 && control.meanDilatation; }
+	double                    dilatation(const Lanes (&G)[gradients<S>], int l) const;
+	std::pair<double, double> volumeAndPressure(std::size_t p) const;
+	[[gnu::noinline]] void    elementMeans(const Tile& tile, const Patch* v, Patch& mean) const;
+	[[gnu::noinline]] void    takeMeanDilatation(Block block, const WeightLanes& w, const Patch& mean, Lanes (&G)[gradients<S>]) const;
+	[[gnu::noinline]] void    takeMeanPressure(
+		   Block block, const WeightLanes& w, const Patch& mean, const Lanes& r, Lanes (&fp)[dim], Lanes (&Vs)[dim][dim]) const;
 
 	struct StressWork;
 	struct Tracking {                              // empty unless energies are tracked
@@ -419,7 +434,9 @@ private:
 	template <bool force> void spreadTile(std::size_t t)
 	{
 		const Tile& tile = m_grid.tiles()[t];
-		Patch       m {}, mv[dim] {}, f[dim] {};
+		Patch       m {}, mv[dim] {}, f[dim] {}, pressure;
+		const bool  averaged = force && averages(m_control);
+		if (averaged) elementMeans(tile, nullptr, pressure);
 		forEachBlock(tile.begin, tile.end, [&](Block block) {
 			Lanes       x[dim], mp, mvp[dim], fp[dim], Vs[dim][dim];
 			WeightLanes w;
@@ -427,6 +444,7 @@ private:
 			weights(tile, block, x, w);
 			if (force) pointForces(block, mp, fp, Vs);
 			if constexpr (hoop && force) addHoopForce(block, x[0], fp[0]);
+			if (averaged) takeMeanPressure(block, w, pressure, x[0], fp, Vs);
 			for (int l = 0; l < block.count; ++l) {
 				// along x, all that a row's weights across will multiply
 				alignas(8 * row) double rm[row], rmv[dim][row], rf[dim][dim][row];
@@ -820,12 +838,13 @@ private:
 	void strainTile(std::size_t t)
 	{
 		const Tile& tile = m_grid.tiles()[t];
-		Patch       v[dim];
+		Patch       v[dim], dilatations;
 		for (int d = 0; d < dim; ++d)
 			read(tile, m_velocity[d], v[d]);
-		forEachBlock(tile.begin, tile.end, [&](Block block) { updateStressAndMove(t, tile, block, v); });
+		if (averages(m_stressControl)) elementMeans(tile, v, dilatations);
+		forEachBlock(tile.begin, tile.end, [&](Block block) { updateStressAndMove(t, tile, block, v, dilatations); });
 	}
-	void updateStressAndMove(std::size_t t, const Tile& tile, Block block, const Patch (&v)[dim])
+	void updateStressAndMove(std::size_t t, const Tile& tile, Block block, const Patch (&v)[dim], const Patch& dilatations)
 	{
 		Lanes       x[dim], advance, G[gradients<S>];
 		WeightLanes w;
@@ -834,6 +853,7 @@ private:
 		weights(tile, block, x, w);
 		for (int l = 0; l < lanes; ++l)
 			displacementGradient(w[std::min(l, block.count - 1)], v, x[0][l], l, G);
+		if (averages(m_stressControl)) takeMeanDilatation(block, w, dilatations, G);
 		if (!updateBlockStress(t, block, G))
 			for (int l = 0; l < block.count; ++l) {
 				double Gp[gradients<S>];
@@ -849,7 +869,7 @@ private:
 		}
 	}
 	/* dt grad v of the point with weights w. */
-	void displacementGradient(const Weights& w, const Patch (&v)[dim], double r, int l, Lanes (&G)[gradients<S>]) const
+	void displacementGradient(const Weights& w, const Patch* v, double r, int l, Lanes (&G)[gradients<S>]) const
 	{
 		for (int d = 0; d < dim; ++d) {
 			double gradient[dim];
@@ -1037,4 +1057,5 @@ private:
 } // namespace yade::mpm
 
 #include "EnergyBalance.hpp"
+#include "MeanDilatation.hpp"
 #include "StableStep.hpp"

@@ -18,13 +18,14 @@ enum class Scheme { usf, usl, musl };
 struct StepControl {
 	double                dt = 0, time = 0;
 	std::array<double, 3> gravity { 0, 0, 0 };
-	double                damping     = 0; // Cundall's, non-viscous, on the nodes
-	double                flip        = 1; // 1: pure FLIP, 0: pure PIC
-	Scheme                scheme      = Scheme::musl;
-	bool                  largeStrain = true;
-	bool                  thinning    = false; // plane stress: the thickness follows the strain
-	int                   threads     = 1;
-	bool                  trackEnergy = false; // keep Points::energies and Points::dissipation
+	double                damping        = 0; // Cundall's, non-viscous, on the nodes
+	double                flip           = 1; // 1: pure FLIP, 0: pure PIC
+	Scheme                scheme         = Scheme::musl;
+	bool                  largeStrain    = true;
+	bool                  thinning       = false; // plane stress: the thickness follows the strain
+	bool                  meanDilatation = false; // plane strain, axisymmetric, 3D: the points of an element change their volume as one
+	int                   threads        = 1;
+	bool                  trackEnergy    = false; // keep Points::energies and Points::dissipation
 };
 
 /* A step that cannot go on: which point, where and why. */
