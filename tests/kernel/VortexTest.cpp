@@ -82,7 +82,7 @@ void expectSecondOrder(Analysis analysis, int cells, double position, double str
 	EXPECT_GT(std::log2(coarse.stress / fine.stress), 1.8);
 }
 
-TEST(VortexTest, PlaneStressAndPlaneStrain)
+TEST(LongVortexTest, PlaneStressAndPlaneStrain)
 {
 	expectSecondOrder(Analysis::planeStress, 64, 7.19e-4, 8.96e-3);
 	expectSecondOrder(Analysis::planeStrain, 64, 7.08e-4, 9.69e-3);
