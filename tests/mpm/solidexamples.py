@@ -6,21 +6,10 @@ spreads evenly and comes to lie lower and wider, the less its friction the wider
 """
 import csv
 import os
-import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
 from common import *
-
-
-def example(name, *options):
-	out = tempfile.mkdtemp()
-	subprocess.run([os.path.join(root, 'scripts', 'yade-mpm'), '-n', '-x', os.path.join(root, 'scripts', 'examples', name + '.py'), out, *options],
-		check=True, env=dict(os.environ, OMP_WAIT_POLICY='passive'))
-	for suffix in '.csv', '.png': check('%s leaves %s' % (name, suffix), os.path.getsize(os.path.join(out, name + suffix)) > 1000)
-	with open(os.path.join(out, name + '.csv')) as f: return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
-
 
 rows = example('cantilever_3d', '--points', '4')[:91]
 with open(os.path.join(root, 'tests', 'data', 'cantilever', 'static_perfectly_plastic.csv')) as f:
