@@ -6,6 +6,7 @@ Radii a = 1 m and b = 2 m, E = 1e7 Pa, nu = 0.3, 1000 kg/m3, perfectly plastic (
 import math
 
 import numpy as np
+from report import runSampled
 from yade import mpm
 from yade import *
 from yade.minieigenHP import Vector3
@@ -123,11 +124,12 @@ def pressurise(kind, analysis, cells, pressure, yieldStress=None, shape='cubic',
 	loads, start = faces(ids, analysis, spacing), mpm.array('position')
 	O.engines = [ForceResetter(), MpmEngine(cellSize=2*spacing, analysis=analysis, shape=shape, damping=.4, walls=walls)]
 	O.dt = .5*mpm.criticalTimeStep()
-	steps, pieces = int(periods*math.pi*(A + B)/math.sqrt(YOUNG/DENSITY)/O.dt), 100
-	for k in range(pieces):
-		x = min(1, 1.6*(k + 1)/pieces)
+	steps = int(periods*math.pi*(A + B)/math.sqrt(YOUNG/DENSITY)/O.dt)
+
+	def load():
+		x = min(1, 1.6*O.iter/steps)
 		for i, f in loads: O.forces.setPermF(i, pressure*x*x*(3 - 2*x)*f)
-		O.run(steps//pieces + 1, True)
+	runSampled(steps, max(1, steps//200), load)
 	return start, mpm.array('position') - start, mpm.array('stress'), mpm.array('volume')
 
 

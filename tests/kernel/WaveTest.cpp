@@ -143,7 +143,7 @@ TEST(WaveTest, BoxInOneAndTwoDimensions)
 				expectBox(analysis, shape, shear, 8);
 	}
 }
-TEST(WaveTest, BoxInThreeDimensions)
+TEST(LongWaveTest, BoxInThreeDimensions)
 {
 	for (ShapeKind shape : { ShapeKind::quadratic, ShapeKind::cubic })
 		for (bool shear : { false, true })
@@ -197,7 +197,7 @@ void expectBar(BarMode which, int layers, double frequency, double rest)
 }
 
 /* doc/verification/waves.md has this table. Torsion moves slowly because mass that is spread to the nodes is spread outwards. */
-TEST(WaveTest, Bar)
+TEST(LongWaveTest, Bar)
 {
 	expectBar(BarMode::longitudinal, 4, -.0593, .0025), expectBar(BarMode::longitudinal, 8, -.0163, -.0005);
 	expectBar(BarMode::bending, 4, -.0065, .0459), expectBar(BarMode::bending, 8, -.0135, .0226);
@@ -245,7 +245,7 @@ double plateDifference(const Law& law, int cells, double time)
 	return std::sqrt(difference / norm);
 }
 
-TEST(WaveTest, ThinPlateIsPlaneStress)
+TEST(LongWaveTest, ThinPlateIsPlaneStress)
 {
 	Law j2  = Scene::elastic(young, poisson, density);
 	j2.kind = Law::Kind::j2, j2.j2.elastic = j2.elastic, j2.j2.yieldStress = young / 50, j2.j2.hardening = young / 20;

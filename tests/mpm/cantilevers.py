@@ -7,21 +7,12 @@ quarter of those the example takes by default: within 8 % of the peak at all tim
 """
 import csv
 import os
-import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
 from common import *
 
 data = os.path.join(root, 'tests', 'data', 'cantilever')
-
-
-def example(name, *options):
-	out = tempfile.mkdtemp()
-	subprocess.run([os.path.join(root, 'scripts', 'yade-mpm'), '-n', '-x', os.path.join(root, 'scripts', 'examples', name + '.py'), out, *options], check=True)
-	for suffix in ('.csv', '.png'): check('%s leaves %s' % (name, suffix), os.path.getsize(os.path.join(out, name + suffix)) > 1000)
-	with open(os.path.join(out, name + '.csv')) as f: return list(csv.DictReader(f))
 
 
 def columns(rows, *names): return numpy.array([[float(row[n]) for n in names] for row in rows])

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests in this folder share: the checks of tests/yade/check.py, small scenes, a second YADE."""
+import csv
 import os
 import subprocess
 import sys
+import tempfile
 
 root = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')  # before yade brings a __file__ of its own
 sys.path.insert(0, os.path.join(root, 'tests', 'yade'))
@@ -64,6 +66,19 @@ def each_step(call):
 	import __main__  # whose names PyRunner sees
 	__main__.called = call
 	O.engines = O.engines + [PyRunner(iterPeriod=1, initRun=True, command='called()')]
+
+
+def example(name, *options):
+	"""Runs one of scripts/examples, which leaves a table and a picture; its rows, numbers as numbers."""
+	out = tempfile.mkdtemp()
+	subprocess.run([os.path.join(root, 'scripts', 'yade-mpm'), '-n', '-x', os.path.join(root, 'scripts', 'examples', name + '.py'), out, *options],
+		check=True, env=dict(os.environ, OMP_WAIT_POLICY='passive'))
+	for suffix in '.csv', '.png': check('%s leaves %s' % (name, suffix), os.path.getsize(os.path.join(out, name + suffix)) > 1000)
+
+	def number(text):
+		try: return float(text)
+		except ValueError: return text
+	with open(os.path.join(out, name + '.csv')) as f: return [{k: number(v) for k, v in row.items()} for row in csv.DictReader(f)]
 
 
 def another(script, *arguments, threads=1):

@@ -4,23 +4,11 @@
 A handful of grains dents the plate, the rebound of a stiff block is complete to 1 %, the column rests on the grains with part of
 its weight and has begun to sink.
 """
-import csv
 import os
-import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
 from common import *
-
-
-def example(name, *options):
-	out = tempfile.mkdtemp()
-	subprocess.run([os.path.join(root, 'scripts', 'yade-mpm'), '-n', '-x', os.path.join(root, 'scripts', 'examples', name + '.py'), out, *options],
-		check=True, env=dict(os.environ, OMP_WAIT_POLICY='passive'))
-	for suffix in '.csv', '.png': check('%s leaves %s' % (name, suffix), os.path.getsize(os.path.join(out, name + suffix)) > 1000)
-	with open(os.path.join(out, name + '.csv')) as f: return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
-
 
 rows = example('grains_on_plate', '--grains', '6', '--time', '.02')
 check('grains have dented the plate', rows[-1]['deflection_m'] > 1e-3 and rows[-1]['mpmDissipation_J'] > 0 and max(r['contacts'] for r in rows) > 0, rows[-1])
