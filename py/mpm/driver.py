@@ -54,7 +54,7 @@ def drive(material, strain, free=()):
 def _path(strain):
 	"""The path as C++ wants it."""
 	try:
-		path = numpy.array(strain if isinstance(strain, numpy.ndarray) else [[list(row) for row in matrix] for matrix in strain], dtype=float, order='C')
+		path = numpy.ascontiguousarray(strain if isinstance(strain, numpy.ndarray) else [[list(row) for row in matrix] for matrix in strain], dtype=float)
 		shape = 'shape %s' % (path.shape,)
 	except (TypeError, ValueError):
 		path, shape = None, 'entries that are not 3x3 numbers'

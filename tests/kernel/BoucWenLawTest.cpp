@@ -119,8 +119,9 @@ TEST(BoucWenLaw, UniaxialStressInEveryStressState)
 		}
 }
 
-/* Invariants over random paths in one stress state, and the tolerance. */
-template <class S> void randomPaths(int paths, unsigned seed, const std::function<void(BoucWenParameters&, std::mt19937&)>& options = {})
+/* Invariants over random paths in one stress state, and the tolerance. A path that returns goes back along its last increment,
+exactly or nearly, with cycles within cycles. */
+template <class S> void randomPaths(int paths, unsigned seed, const std::function<void(BoucWenParameters&, std::mt19937&)>& options = {}, bool returns = false)
 {
 	std::mt19937                           random(seed);
 	std::uniform_real_distribution<double> unit(0, 1);
@@ -135,15 +136,21 @@ template <class S> void randomPaths(int paths, unsigned seed, const std::functio
 		Law reference               = law;
 		reference.boucWen.tolerance = 1e-6;
 		LawPoint<S> coarse(law), fine(reference);
-		double      way = 0;
-		for (int i = 0; i < 6; ++i) {
-			std::array<double, S::N> increment;
-			const double             size = std::pow(10, -4 + 5 * unit(random));
-			double                   norm = 0;
-			for (double& e : increment)
+		double      way = 0, size = 0;
+
+		std::array<double, S::N> increment {};
+		for (int i = 0; i < (returns ? 12 : 6); ++i) {
+			const bool               back  = returns && i > 0 && unit(random) < .7;
+			const double             share = back ? 1.3 * unit(random) : 0;
+			const double             aside = back ? .2 * share * (random() % 2) * size : std::pow(10, -4 + 5 * unit(random));
+			std::array<double, S::N> direction;
+			double                   norm = 0, length = 0;
+			for (double& e : direction)
 				e = normal(random), norm += e * e;
-			for (double& e : increment)
-				e *= size * yieldStrain / std::sqrt(norm);
+			for (std::size_t k = 0; k < S::N; ++k)
+				increment[k] = -share * increment[k] + aside * yieldStrain * direction[k] / std::sqrt(norm),
+				length += increment[k] * increment[k];
+			size                 = std::sqrt(length) / yieldStrain;
 			const double plastic = coarse.plasticStrain(), dissipation = coarse.response.dissipation;
 			coarse.strain(increment), way += size;
 			const double radius = law.boucWen.isotropic.radius(yieldStress, coarse.plasticStrain()) / yieldStress;
@@ -187,8 +194,9 @@ TEST(LongBoucWenLaw, InvariantsWithOptions)
 	auto reloading = [](BoucWenParameters& law, std::mt19937& random) { law.reloading = random() % 2 ? infinity : 2; };
 	randomPaths<PlaneStress>(400, 5, isotropic), randomPaths<Solid>(400, 6, isotropic);
 	randomPaths<Uniaxial>(400, 7, degrading), randomPaths<PlaneStress>(400, 8, degrading), randomPaths<Solid>(400, 9, degrading);
-	randomPaths<Uniaxial>(400, 12, reloading);
-	randomPaths<PlaneStress>(400, 10, reloading), randomPaths<PlaneStrain>(400, 11, reloading), randomPaths<Solid>(400, 13, reloading);
+	randomPaths<Uniaxial>(400, 12, reloading, true), randomPaths<PlaneStress>(400, 10, reloading, true);
+	randomPaths<PlaneStrain>(400, 11, reloading, true), randomPaths<Solid>(400, 13, reloading, true);
+	randomPaths<PlaneStress>(400, 14, reloading);
 }
 
 TEST(BoucWenLaw, OneStepOfTenYieldStrainsIsTenThousandSmallOnes)
