@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "AsWritten.hpp"
 #include "kernel/Law.hpp"
 #include <pkg/common/ElastMat.hpp>
 
@@ -9,7 +10,7 @@ namespace yade {
 class BoucWenMat : public FrictMat {
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(BoucWenMat, FrictMat, "Hysteretic (Bouc-Wen-type) elastoplastic material with von Mises' criterion and Prager's kinematic hardening, after Sofianos & Koumousis, COMPDYN 2017, eqs. 21-27 as corrected in doc/law.md. A smoothed Heaviside function (f/yieldStress)^n turns the tangent from elastic to plastic without a yield test. For MpmEngine and mpm.drive; among grains it is a FrictMat. The attributes after tolerance are options, off by default and then free of cost.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(BoucWenMat, FrictMat, "Hysteretic (Bouc-Wen-type) elastoplastic material with von Mises' criterion and Prager's kinematic hardening, after Sofianos & Koumousis, COMPDYN 2017, eqs. 21-27 as corrected in doc/law.md. A smoothed Heaviside function (f/yieldStress)^n turns the tangent from elastic to plastic without a yield test. For MpmEngine and mpm.drive; among grains it is a FrictMat. The attributes after tolerance are options, off by default and then free of cost.",
 		((Real, yieldStress, NaN, , "Yield stress sigma_y in uniaxial tension, > 0 [Pa]. Mandatory."))
 		((Real, n, 10, , "Sharpness of the knee, finite and > 0 [-]: exponent of H1 = (f/sigma_y)^n, f von Mises' equivalent of stress - back stress. For n -> infinity the law tends to J2Mat, like ln 2/n. Whole and half numbers are faster."))
 		((Real, beta, .5, , "Weight of the constant part of H2 = beta + gamma sign(a.D.strain rate) [-], a the gradient of f and D elasticity; beta + gamma = 1 and gamma >= abs(beta)."))
@@ -29,6 +30,8 @@ public:
 		((std::string, loadingRule, "normal", , "What H2 takes the sign of: 'normal', a.D.strain rate; 'paper', strain . stress rate as eq. 26 prints it, with the elastic stress rate, which breaks f <= sigma_y, is there for comparison only and goes with none of the options above."))
 		,
 		createIndex();
+		,
+		.def(AsWritten())
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(BoucWenMat, FrictMat);
@@ -38,7 +41,7 @@ REGISTER_SERIALIZABLE(BoucWenMat);
 class J2Mat : public FrictMat {
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(J2Mat, FrictMat, "Classical von Mises plasticity with linear kinematic and linear and saturating isotropic hardening, by return mapping (plane stress after Simo & Taylor, IJNME 22 (1986) 649): the limit n -> infinity of BoucWenMat. For MpmEngine and mpm.drive; among grains it is a FrictMat.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(J2Mat, FrictMat, "Classical von Mises plasticity with linear kinematic and linear and saturating isotropic hardening, by return mapping (plane stress after Simo & Taylor, IJNME 22 (1986) 649): the limit n -> infinity of BoucWenMat. For MpmEngine and mpm.drive; among grains it is a FrictMat.",
 		((Real, yieldStress, NaN, , "Yield stress sigma_y in uniaxial tension, > 0 [Pa]. Mandatory."))
 		((Real, tangentRatio, 0, , "Ratio alpha = E_t/E of the uniaxial tangent of kinematic hardening to Young's modulus, in [0, 1) [-]. The plastic modulus is alpha E/(1 - alpha)."))
 		((Real, isotropicModulus, 0, , "Linear isotropic hardening K >= 0 [Pa]: the yield stress is sigma_y + K p + Q (1 - exp(-b p)), p the accumulated plastic strain."))
@@ -46,6 +49,8 @@ public:
 		((Real, saturationRate, 0, , "Its rate b >= 0 [-]."))
 		,
 		createIndex();
+		,
+		.def(AsWritten())
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(J2Mat, FrictMat);
@@ -55,12 +60,14 @@ REGISTER_SERIALIZABLE(J2Mat);
 class DruckerPragerMat : public FrictMat {
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(DruckerPragerMat, FrictMat, "Perfectly plastic Drucker-Prager material through the compression corners of Mohr-Coulomb's pyramid, with dilatancy and an apex return. For MpmEngine and mpm.drive; among grains it is a FrictMat, whose frictionAngle is that of contacts and has nothing to do with internalFriction.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DruckerPragerMat, FrictMat, "Perfectly plastic Drucker-Prager material through the compression corners of Mohr-Coulomb's pyramid, with dilatancy and an apex return. For MpmEngine and mpm.drive; among grains it is a FrictMat, whose frictionAngle is that of contacts and has nothing to do with internalFriction.",
 		((Real, cohesion, 0, , "Cohesion c >= 0 [Pa]. Cohesion and internal friction must not both be 0, which is what both are unless given."))
 		((Real, internalFriction, 0, , "Angle of internal friction phi, from 0 to below 1.57 [rad]."))
 		((Real, dilatancy, 0, , "Angle of dilatancy psi, from 0 to internalFriction [rad]."))
 		,
 		createIndex();
+		,
+		.def(AsWritten())
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(DruckerPragerMat, FrictMat);

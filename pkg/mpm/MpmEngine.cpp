@@ -9,6 +9,7 @@
 #include <core/Bound.hpp>
 #include <core/EnergyTracker.hpp>
 #include <core/ForceContainer.hpp>
+#include <core/Interaction.hpp>
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
 #include <core/TimeStepper.hpp>
@@ -54,6 +55,16 @@ void MpmEngine::action()
 
 void MpmEngine::step()
 {
+	struct Clock : mpm::PassClock {
+		TimingDeltas& deltas;
+		explicit Clock(TimingDeltas& d)
+		    : deltas(d)
+		{
+		}
+		void lap(const char* pass) override { deltas.checkpoint(pass); }
+	} clock(*timingDeltas);
+
+	timingDeltas->start();
 	const auto       lock    = attach();
 	mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
@@ -61,9 +72,11 @@ void MpmEngine::step()
 	const bool stepper = checkClocks();
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
+	if (TimingInfo::enabled) control.clock = &clock, clock.lap("bodies to points");
 	m_solver->step(control);
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
+	if (TimingInfo::enabled) clock.lap("points to bodies");
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
@@ -126,8 +139,7 @@ mpm::StepControl MpmEngine::prepare()
 		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
 			[](const Checked& a, const shared_ptr<Engine>& b) { return a.engine == b.get() && a.dead == b->dead; }))
 		checkEngineOrder();
-	const bool stretch = thinning || analysisKind == mpm::Analysis::axisymmetric;
-	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretch) m_points->finish();
+	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretches(analysisKind)) m_points->finish();
 	m_points->large = largeStrain;
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
@@ -210,9 +222,11 @@ void MpmEngine::prepareSolver()
 		internals  = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
-	points.prepare(mpm::dimension(analysisKind), int(columns), internals, thinning || analysisKind == mpm::Analysis::axisymmetric, m_bodies > 0,
-		scene->trackEnergy, freeNormal);
+	points.prepare(mpm::dimension(analysisKind), int(columns), internals, stretches(analysisKind), m_bodies > 0, scene->trackEnergy, freeNormal);
 }
+
+/* Whether points carry a stretch normal to the plane: of their thickness, or of the rings that they stand for. */
+bool MpmEngine::stretches(mpm::Analysis kind) const { return thinning || kind == mpm::Analysis::axisymmetric; }
 
 void MpmEngine::checkPoints(mpm::Analysis kind) const
 {
@@ -444,6 +458,7 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
 			if (before) changed += std::abs(velocity[d] - points.moving[std::size_t(d)][p]);
 		}
+		if (changed != 0 && points.energies.started) bookVelocity(p, state);
 		for (int d = 0; d < dim && changed != 0; ++d)
 			v[d][p] = velocity[d];
 		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
@@ -483,6 +498,15 @@ void MpmEngine::refuseStates(int dim) const
 		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],
 			"in a plane analysis points lie at z = 0 and stay there");
 	}
+}
+
+/* What a script gives a point in kinetic energy is external work. */
+void MpmEngine::bookVelocity(std::size_t p, const State& state)
+{
+	mpm::Points& points = m_points->points;
+	if (!state.vel.allFinite()) return; // which ends the run
+	for (std::size_t d = 0; d < points.advance.size(); ++d)
+		points.energies.external += .5 * points.mass[p] * (points.velocity[d][p] * points.velocity[d][p] - state.vel[int(d)] * state.vel[int(d)]);
 }
 
 /* Torque on a point that touches another body; one that does so no more shows its own velocity again. */

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "AsWritten.hpp"
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
 #include "kernel/Continuity.hpp"
 #include <core/GlobalEngine.hpp>
+#include <core/Timing.hpp>
 
 namespace yade {
 
@@ -33,7 +35,10 @@ public:
 		((Real, largestGap, 2, , "Largest gap that may open between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]: what their distance has more than the deformation of the material between them accounts for. A wider one is numerical fracture, the points share no node any more, and ends the run with their ids. Looked at whenever points can have moved a quarter of a cell, every 10 to 1000 steps. inf where a body is meant to come apart, or for no checks at all. Points of a DruckerPragerMat, which lets go in tension, are left out."))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
-		,/*ctor*/,
+		,
+		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
+		,
+		.def(AsWritten())
 		.def("criticalTimeStep", &MpmEngine::criticalTimeStep, "Largest stable step of the scene as it stands [s]: 2/omega of the discrete operator with elastic stiffness, and the fastest point crossing less than a cell. doc/method.md derives it.")
 		.add_property("gridBytes", &MpmEngine::gridBytes, "Memory of the grid [bytes].")
 	);
@@ -71,6 +76,7 @@ private:
 	void                         prepareWalls(int dim, bool axisymmetric);
 	void                         prepareSolver();
 	std::unique_lock<std::mutex> attach();
+	bool                         stretches(mpm::Analysis kind) const;
 	void                         checkPoints(mpm::Analysis kind) const;
 	void                         checkGimp() const;
 	void                         checkEngineOrder();
@@ -83,6 +89,7 @@ private:
 	void                         readBodies();
 	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
 	void                         refuseStates(int dim) const;
+	void                         bookVelocity(std::size_t p, const State& state);
 	void                         readContact(std::size_t p, bool touched, State& state);
 	void                         writeBodies();
 	void                         reportEnergies() const;

@@ -81,8 +81,15 @@ const Body* MpmPoints::bodyOf(std::size_t p, const BodyContainer& bodies) const
 void MpmPoints::dropErased(const BodyContainer& bodies)
 {
 	std::vector<std::size_t> kept;
+	mpm::Energies&           energies = points.energies;
 	for (std::size_t p = 0; p < points.count(); ++p)
-		if (points.id[p] < 0 || bodyOf(p, bodies)) kept.push_back(p);
+		if (points.id[p] < 0 || bodyOf(p, bodies))
+			kept.push_back(p);
+		else if (energies.started) {
+			const mpm::Energies held = runtime.solver->held(p);
+			energies.external += held.kinetic + held.elastic + held.hardening;
+			energies.elastic -= held.elastic, energies.hardening -= held.hardening;
+		}
 	if (kept.size() < points.count()) points.select(kept);
 }
 
@@ -267,6 +274,7 @@ py::object MpmPoints::append(
 		} else
 			id = nextBodyless--;
 		points.append(id, int(index), x.data(), velocity.data(), mass, volume, spacing, ring ? -depth : thickness);
+		if (points.energies.started) points.energies.external -= .5 * mass * velocity.squaredNorm();
 		ids.append(id);
 	}
 	++points.generation;

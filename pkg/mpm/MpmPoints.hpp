@@ -52,6 +52,7 @@ public:
 	static shared_ptr<MpmPoints> of(const Scene& scene);
 
 	std::size_t count() const { return points.count(); }
+	std::string text() const { return "<MpmPoints: " + std::to_string(count()) + " material points; look at them with mpm.array()>"; }
 	/* Carries out the pending stress update. */
 	void finish();
 	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
@@ -60,7 +61,7 @@ public:
 	void changeMaterial(std::size_t p, const shared_ptr<Material>& material);
 	/* The body that stands for a point, or null where it has none (any more). */
 	const Body* bodyOf(std::size_t p, const BodyContainer& bodies) const;
-	/* Drops the points whose bodies have been erased. */
+	/* Drops the points whose bodies have been erased; what they held leaves the balance of energies as external work. */
 	void dropErased(const BodyContainer& bodies);
 	/* Index of the point with this id in the arrays as they stand; throws where there is none. */
 	std::size_t indexOf(int id);
@@ -111,6 +112,8 @@ public:
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("__len__", &MpmPoints::count)
+		.def("__repr__", &MpmPoints::text)
+		.def("__str__", &MpmPoints::text)
 	);
 	// clang-format on
 

@@ -18,7 +18,7 @@ public:
 	Real     volume() const { return read(&MpmPoints::volume); }
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmState, State, "State of a material point of :yref:`MpmEngine`. Made by :yref:`mpm.fill`. Position, velocity and blockedDOFs may be written between steps, as with any body; a blocked translation prescribes the point's velocity.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmState, State, "State of a material point of :yref:`MpmEngine`. Made by :yref:`mpm.fill`. Position, velocity and blockedDOFs may be written between steps, as with any body; a blocked translation prescribes the point's velocity. While the point touches a grain, vel is the velocity with which it moves and angVel the spin of the material around it, as the contact must see them; its own velocity, from which momentum is summed, is mpm.array('velocity').",
 		((shared_ptr<MpmPoints>, points, , Attr::hidden, "Where the point's state is"))
 		((int, pointId, -1, (Attr::readonly | Attr::hidden), "Id of the point"))
 		,

@@ -9,6 +9,10 @@
 	O.run(1000, True)
 	sigma = mpm.array('stress')
 
+fill makes points, array looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single
+point through strains (PointHistory), readStl reads a surface to fill. Classes: MpmEngine, MpmWall, MpmState, MpmVtkRecorder, and the
+materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
+
 Units are SI, tension is positive.
 """
 import yade
@@ -21,3 +25,6 @@ from .surface import readStl
 from .view import color
 
 __all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
+
+
+def __dir__(): return __all__

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Rate of a scene of material points with grains on them, beside either alone, as CSV on the standard output.
 
-    scripts/yade-mpm -n -x -j1 scripts/benchmarks/contacts.py [--points 100000] [--grains 10000] [--steps 20]
+    scripts/yade-mpm -n -x -j1 scripts/benchmarks/contacts.py [--points 100000] [--grains 10000] [--steps 20] [--sorted]
 
 A layer of 3D points (elastic, ten deep, weightless) with a layer of spheres that rests on it, each on a point; all move along x at 1 m/s,
 so that the collider has work to do. A scene has the engines
@@ -33,7 +33,8 @@ def scene(points, grains):
 	grid = [MpmEngine(cellSize=2*SPACING, analysis='3d', walls=[MpmWall(normal=(0, 0, 1), kind='slip')])] if points else []
 	contacts = [
 		InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=.1*SPACING),
-		InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+		InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()],
+			loopOnSortedInteractions=options.sorted),
 	]
 	newton = [NewtonIntegrator(damping=.2, gravity=(0, 0, -G))]
 	O.engines = [ForceResetter()] + (contacts + grid + newton if grains else grid)
@@ -62,6 +63,7 @@ parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
 parser.add_argument('--points', type=int, default=100000)
 parser.add_argument('--grains', type=int, default=10000)
 parser.add_argument('--steps', type=int, default=20)
+parser.add_argument('--sorted', action='store_true', help='loopOnSortedInteractions, with which a loaded scene goes on bit for bit')
 options = parser.parse_args(sys.argv[1:])
 print('scene,points,grains,contacts,wall_s,processor_s,steps_per_s,bodies_steps_per_s')
 measure('points alone', True, False)

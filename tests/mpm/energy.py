@@ -80,6 +80,42 @@ e = energies()
 check('pulling a prescribed end does work', e['mpmWalls'] < -5*held and e['mpmElastic'] > 5*held, e)
 near('prescribed end: balance over the work', (O.energy.total() - held)/-e['mpmWalls'], 0, 5e-3)
 
+# ---- what comes and goes during a run is booked -----------------------------------------------------------------------
+ids, grid = block(region=((0, 0), (1, 1)), spacing=.125, material=steel(), courant=.1, walls=[MpmWall(normal=(0, 1, 0), kind='slip')])
+for i in ids: O.bodies[i].state.vel = (0, -.1 - O.bodies[i].state.pos[1], 0)
+O.trackEnergy = True
+O.run(100, True)
+
+
+def jumps(what, change, least):
+	"""The sum of the energies over a change; and that the change is one of at least so many joules."""
+	before, total = energies(), O.energy.total()
+	change()
+	O.run(2, True)
+	after = energies()
+	check(what + ': is worth something', abs(after['mpmExternal'] - before['mpmExternal']) > least, (before, after))
+	near(what + ': the sum does not jump', (O.energy.total() - total)/abs(after['mpmExternal'] - before['mpmExternal']), 0, .02)
+
+
+def push():
+	for i in ids: O.bodies[i].state.vel += Vector3(2, 0, 0)
+
+
+def erase():
+	for i in ids[:8]: O.bodies.erase(i)
+
+
+def prescribe():
+	for i in ids[-8:]: O.bodies[i].state.blockedDOFs, O.bodies[i].state.vel = 'x', (5, 0, 0)
+
+
+start = energies()
+check('the block is strained, elastically and plastically', min(start[n] for n in ('mpmElastic', 'mpmHardening', 'mpmDissipation')) > .01, start)
+jumps('velocities that a script writes', push, 10)
+jumps('points erased', erase, 10)
+jumps('points added', lambda: mpm.fill(((3, 3), (3.5, 3.5)), spacing=.125, thickness=.1, material='steel', velocity=(3, 0, 0)), 10)
+jumps('prescribed velocities', prescribe, 10)
+
 # ---- tracking continues over save and load, bit for bit -------------------------------------------------------------------
 ids, grid = block(spacing=.125, material=steel(), gravity=(0, -10, 0), walls=[MpmWall(normal=(0, 1, 0), kind='fixed')], velocity=(0, -2, 0))
 O.trackEnergy = True

@@ -81,8 +81,16 @@ O.run(25, True)
 engine = [e for e in O.engines if isinstance(e, MpmEngine)][0]
 equal('timing: the engine has run as often as there were steps', engine.execCount, 25)
 check('timing: and took time', 0 < engine.execTime < 60e9, engine.execTime)
+passes = engine.timingDeltas.data
+equal('timing: its passes, each in every step', [(label, count) for label, time, count in passes], [(label, 25) for label in
+	('bodies to points', 'points sorted into tiles', 'stress, points to nodes', 'nodes', 'nodes to points and back', 'points to bodies')])
+near('timing: they are all there is', sum(time for label, time, count in passes)/engine.execTime, 1, .1)
 timing.stats()
+timing.reset()
+equal('timing: and can be reset', engine.timingDeltas.data, [])
 O.timingEnabled = False
+O.run(1, True)
+equal('timing: nothing is kept while it is off', engine.timingDeltas.data, [])
 
 # plot and PyRunner
 moving()
@@ -126,6 +134,15 @@ def count(region, **more):
 x = count(pack.inSphere((1, 2, 3), .5))
 near('a sphere: volume', len(x)*.05**3, 4/3*numpy.pi*.5**3, .02*.52)
 check('all inside', (numpy.linalg.norm(x - (1, 2, 3), axis=1) <= .5).all())
+
+
+class Ball(pack.Predicate):
+	"""A script's own predicate, which counts on a Vector3."""
+	def __call__(self, point, pad=0): return (point - Vector3(1, 2, 3)).norm() <= .5
+	def aabb(self): return Vector3(.5, 1.5, 2.5), Vector3(1.5, 2.5, 3.5)
+
+
+same('a predicate written in Python', count(Ball()), x)
 x = count(pack.inCylinder((0, 0, 0), (0, 0, 1), .5))
 near('a cylinder: volume', len(x)*.05**3, numpy.pi*.25, .02*.785)
 x = count(pack.inAlignedBox((0, 0, -1), (1, 1, 1)) - pack.inAlignedBox((.4, .5, -2), (.6, 2, 2)), thickness=.1)

@@ -37,6 +37,7 @@ public:
 		const bool energy = control.trackEnergy;
 		if (energy) startEnergies();
 		layGrid();
+		lap("points sorted into tiles");
 		if (energy) m_tracking.tiles.resize(m_grid.tiles().size());
 
 		clearSums();
@@ -60,9 +61,11 @@ public:
 		}
 		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { spreadCouples(t, m_force); });
 		if (energy) keepSums();
+		lap(control.scheme == Scheme::usf ? "points to nodes, stress" : "stress, points to nodes");
 		updateNodes();
 		const double kineticBefore = energy ? kineticEnergy() : 0;
 		if (energy) trackWork();
+		lap("nodes");
 
 		if (control.scheme == Scheme::musl) {
 			clear(m_velocity);
@@ -73,6 +76,7 @@ public:
 			std::swap(m_velocity, m_momentum); // the updated velocities themselves
 		}
 		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { moveTouchedPoints(t); });
+		lap(control.scheme == Scheme::musl ? "nodes to points and back" : "nodes to points");
 		m_stressControl = control;
 		m_pending       = true;
 		if (control.scheme == Scheme::usf) finishPositions();
@@ -117,8 +121,9 @@ public:
 		return nodes;
 	}
 
-	double acousticTimeStep(Scheme scheme) override;
-	double crossingRate() const override;
+	double   acousticTimeStep(Scheme scheme) override;
+	Energies held(std::size_t p) const override;
+	double   crossingRate() const override;
 
 private:
 	static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -180,6 +185,10 @@ private:
 	};
 	Tracking m_tracking;
 
+	void lap(const char* pass) const
+	{
+		if (m_control.clock) m_control.clock->lap(pass);
+	}
 	void   startEnergies();
 	void   keepSums();
 	void   trackWork();

@@ -15,6 +15,12 @@ enum class ShapeKind { linear, gimp, quadratic, cubic };
 velocities (USL), or from those mapped once more from the points (MUSL; Sulsky, Zhou & Schreyer, CPC 87 (1995) 236). */
 enum class Scheme { usf, usl, musl };
 
+/* Told of the end of each pass of a step, by whoever wants to know what a pass takes: the same passes at every step of a scheme. */
+struct PassClock {
+	virtual ~PassClock()               = default;
+	virtual void lap(const char* pass) = 0;
+};
+
 struct StepControl {
 	double                dt = 0, time = 0;
 	std::array<double, 3> gravity { 0, 0, 0 };
@@ -26,6 +32,7 @@ struct StepControl {
 	bool                  meanDilatation = false; // plane strain, axisymmetric, 3D: the points of an element change their volume as one
 	int                   threads        = 1;
 	bool                  trackEnergy    = false; // keep Points::energies and Points::dissipation
+	PassClock*            clock          = nullptr;
 };
 
 /* A step that cannot go on: which point, where and why. */
@@ -64,6 +71,8 @@ public:
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
 	double criticalTimeStep(Scheme scheme) { return 1 / (1 / acousticTimeStep(scheme) + crossingRate()); }
+	/* Kinetic, elastic and hardening energy of a point, after finish(). */
+	virtual Energies held(std::size_t p) const = 0;
 	/* The nodes of the last step, with the velocities that it ended with. */
 	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */

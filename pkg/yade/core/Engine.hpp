@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 #include <core/Declared.hpp>
+#include <core/Timing.hpp>
 
 namespace yade {
 
 class Scene;
-class TimingDeltas;
-
-struct TimingInfo {
-	using delta = unsigned long long;
-	long  nExec = 0;
-	delta nsec  = 0;
-};
 
 class Engine : public Serializable {
 	YADE_DECLARED_CLASS(Engine)
