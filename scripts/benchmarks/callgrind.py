@@ -3,22 +3,23 @@
 import collections, os, re, subprocess, tempfile
 
 
-def run(command, options=(), environment=None):
-    """Runs a command under callgrind; what it has written to its file, as text, and what the command has printed."""
+def run(command, options=(), environment=None, part=''):
+    """Runs a command under callgrind; what it has written to its file, or to a part of it, as text."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'out')
-        done = subprocess.run(['valgrind', '--tool=callgrind', '--callgrind-out-file=' + out, *options, *command],
-                              env={**os.environ, **(environment or {})}, check=True, capture_output=True, text=True)
-        with open(out) as file:
-            return file.read(), done.stdout
+        subprocess.run(['valgrind', '--tool=callgrind', '--callgrind-out-file=' + out, *options, *command],
+                       env={**os.environ, **(environment or {})}, check=True, capture_output=True, text=True)
+        with open(out + part) as file:
+            return file.read()
 
 
-def inclusive(command, functions, options=(), environment=None):
-    """Instructions below each of some functions (regular expressions; the greatest match), and in all."""
+def inclusive(command, functions, options=(), environment=None, between=None):
+    """Instructions below each of some functions (regular expressions; the greatest match), and in all; with `between` those
+    from the second to the third call of that function."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, 'out')
         with open(out, 'w') as file:
-            file.write(run(command, options, environment)[0])
+            file.write(run(command, [*options, '--dump-before=' + between] if between else options, environment, '.3' if between else ''))
         table = subprocess.run(['callgrind_annotate', '--inclusive=yes', '--threshold=100', out], check=True, capture_output=True, text=True).stdout
     counts = dict.fromkeys(functions, 0)
     for line in table.splitlines():
@@ -31,9 +32,9 @@ def inclusive(command, functions, options=(), environment=None):
     return counts
 
 
-def perAddress(command, program, environment=None):
-    """How often each instruction of a program was executed: {function: {address: count}}."""
-    text, _ = run(command, ('--dump-instr=yes', '--dump-line=no', '--compress-pos=no', '--compress-strings=no'), environment)
+def perAddress(command, program, within, environment=None):
+    """How often each instruction of a program was executed inside a function (name, or pattern): {function: {address: count}}."""
+    text = run(command, ('--toggle-collect=' + within, '--dump-instr=yes', '--dump-line=no', '--compress-pos=no', '--compress-strings=no'), environment)
     counts = collections.defaultdict(collections.Counter)
     inside, function, skip = False, None, False
     for line in text.splitlines():

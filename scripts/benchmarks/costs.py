@@ -6,28 +6,31 @@ import csv, os, sys
 import callgrind
 
 root = os.path.realpath(os.path.join(os.path.dirname(__file__), '..', '..'))
+build = os.environ.get('YADE_MPM_BUILD', os.path.join(root, 'build'))
+prefix = os.path.join(build, 'prefix') # scripts/yade-mpm has made it
 across, steps = 40, 20
 solver, engine = r'MpmSolver<.*>::step\(', r'MpmEngine::action\('
 solid = r'Solver<yade::mpm::Solid'
-cases = [('elastic',), ('yielding',), ('elastic', 'bodies'), ('elastic', 'energy'), ('yielding', 'bodies'), ('yielding', 'energy')]
+block = [('scene.py', '2', 'cubic', law, *what) for what in ((), ('bodies',), ('energy',)) for law in ('elastic', 'yielding')]
 
 
-def counted(*case):
-    """Those of a step: of a run less those of a shorter one."""
-    def total(n):
-        command = ['/usr/bin/python3.11', '/usr/bin/yade', '-j1', '-n', '-x', os.path.join(root, 'scripts/benchmarks/scene.py'), str(across), 'cubic', *case]
-        return callgrind.inclusive(command, (solver, engine, solid), ['--toggle-collect=yade::Scene::moveToNextTimeStep()'],
-            {'YADE_PREFIX': prefix, 'MPM_BENCHMARK_STEPS': str(n), 'MPM_INSTRUCTIONS': 'avx2'})
-    long, short = total(2*steps), total(steps)
-    return {name: (long[name] - short[name])/(5*steps*across**2) for name in long}
+def counted(script, *arguments):
+    """Those of the steps between two runs of the script's PyRunner."""
+    command = ['/usr/bin/python3.11', '/usr/bin/yade', '-j1', '-n', '-x', os.path.join(root, 'scripts/benchmarks', script), *arguments]
+    return callgrind.inclusive(command, (solver, engine, solid), ['--toggle-collect=yade::Scene::moveToNextTimeStep()'],
+        {'YADE_PREFIX': prefix, 'MPM_BENCHMARK_STEPS': str(steps), 'MPM_INSTRUCTIONS': 'avx2'}, between='yade::PyRunner::action()')
 
 
-build = os.environ.get('YADE_MPM_BUILD', os.path.join(root, 'build'))
-prefix = os.path.join(build, 'prefix') # scripts/yade-mpm has made it
 with open(os.path.join(sys.argv[1], 'costs.csv'), 'w', newline='') as file:
     table = csv.writer(file)
-    table.writerow(['law', 'bodies', 'energies', 'kernel', 'engine', 'loop', 'in 3D code'])
-    for case in cases:
-        n = counted(*case)
-        table.writerow([case[0], 'bodies' in case, 'energy' in case] + ['%.0f' % x for x in (n[solver], n[engine] - n[solver], n['all'] - n[engine], n[solid])])
+    table.writerow(['scene', 'law', 'bodies', 'energies', 'kernel', 'engine', 'loop', 'outside the kernel', 'in 3D code'])
+
+    def add(scene, points, n, *what):
+        outside = n['all'] - n[solver]
+        row = [n[solver], n[engine] - n[solver], n['all'] - n[engine]]
+        table.writerow([scene, *what] + ['%.0f' % (x/(steps*points)) for x in row] + ['%.3f' % (outside/n['all']), n[solid]])
         file.flush()
+
+    for script, *arguments in block:
+        add('block', across**2, counted(script, str(across), *arguments), arguments[2], 'bodies' in arguments, 'energy' in arguments)
+    add('cantilever', 360, counted('cantilever.py'), 'hysteretic', True, False)

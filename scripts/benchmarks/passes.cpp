@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Steps of whole scenes without YADE: items are points times steps.
-#include "Square.hpp"
+#include "Blocks.hpp"
 #include "kernel/InstructionSet.hpp"
 #include <benchmark/benchmark.h>
 
@@ -11,7 +11,7 @@ namespace {
 void step(benchmark::State& state, ShapeKind shape, Motion motion)
 {
 	const int across = int(state.range(0));
-	Scene     s      = square(across, shape, motion, int(state.range(1)));
+	Scene     s      = block(2, across, shape, motion, int(state.range(1)));
 	for (auto _ : state)
 		s.step();
 	state.SetItemsProcessed(state.iterations() * across * across);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this machine can do: fused multiplications and additions without memory, and a triad on arrays that no cache holds.
-// Writes CSV: threads, flop/s, byte/s, the best of several trials.
+// What this machine can do: fused multiplications and additions without memory, a triad on arrays that no cache holds, and
+// cycles. Writes CSV: threads, instruction set, flop/s, byte/s, cycles/s, the best of several trials.
 #include "kernel/InstructionSet.hpp"
 #include <algorithm>
 #include <chrono>
@@ -75,12 +75,29 @@ double bandwidth(int threads)
 	return 4. * 8 * double(count) / time; // a is read before it is written
 }
 
+/* By two operations of one cycle each that wait for each other. */
+double clockRate()
+{
+	const long             rounds = 200000000;
+	volatile unsigned long seed = 12345, sink = 0;
+	const double           time = seconds([&] {
+                const unsigned long r = seed;
+                unsigned long       x = seed + 1;
+                for (long k = 0; k < rounds; ++k)
+                        x = (x ^ r) + r;
+                sink = x;
+        });
+	return 2. * double(rounds) / time;
+}
+
 } // namespace
 
 int main()
 {
-	std::cout << "threads,instructions,flops,bytes\n";
+	const double clock = clockRate();
+	std::cout << "threads,instructions,flops,bytes,cycles\n";
 	for (int threads : { 1, 2 })
 		if (threads <= omp_get_num_procs())
-			std::cout << threads << ',' << name(instructionSet()) << ',' << flops(threads) << ',' << bandwidth(threads) << std::endl;
+			std::cout << threads << ',' << name(instructionSet()) << ',' << flops(threads) << ',' << bandwidth(threads) << ',' << clock
+				  << std::endl;
 }

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The square of Square.hpp inside YADE's loop. Prints one line of JSON: points, point-steps a second of wall and of CPU
-time (medians of five parts of the run), and bytes of memory a point.
+"""The blocks of Blocks.hpp inside YADE's loop. Prints one line of JSON: points, point-steps a second of wall and of CPU
+time (medians of five parts of the run), and bytes of memory a point, by the growth of the process.
 
-    scripts/yade-mpm -j<threads> -n -x scripts/benchmarks/scene.py across shape elastic|yielding [bodies] [energy]
+    scripts/yade-mpm -j<threads> -n -x scripts/benchmarks/scene.py across 2|3 shape elastic|yielding [bodies] [energy]
 
 The motion is that of a wide plate, so that no point leaves its tile: strips of points whose velocities grow with x."""
 import json, os, statistics, sys, time
 from yade import mpm
 
-across, shape, law = int(sys.argv[1]), sys.argv[2], sys.argv[3]
-bodies, energy = 'bodies' in sys.argv[4:], 'energy' in sys.argv[4:]
-steps = int(os.environ.get('MPM_BENCHMARK_STEPS', 0)) or max(10, 800000//across**2)
+across, dim, shape, law = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3], sys.argv[4]
+bodies, energy = 'bodies' in sys.argv[5:], 'energy' in sys.argv[5:]
+points = across**dim
+steps = int(os.environ.get('MPM_BENCHMARK_STEPS', 0)) or max(5, (800000 if dim == 2 else 200000)//points)
 
 
 def resident():
@@ -26,18 +27,20 @@ else:
 spacing, before = 1/across, resident()
 O.dt = .2*2*spacing/5422
 low, strips = round(across/3)*spacing, min(across, 100)
+depth = dict(thickness=.01) if dim == 2 else {}
 for k in range(strips):
     x = [round(i*across/strips)*spacing for i in (k, k + 1)]
     v = (1.5e-6/O.dt*(x[0] + x[1])/2, 0, 0)
-    mpm.fill(((x[0], 0), (x[1], low)), spacing, 'flows', thickness=.01, velocity=v, bodies=bodies)
-    mpm.fill(((x[0], low), (x[1], 1)), spacing, 'holds', thickness=.01, velocity=v, bodies=bodies)
+    for y0, y1, material in (0, low, 'flows'), (low, 1, 'holds'):
+        region = ((x[0], y0), (x[1], y1)) if dim == 2 else ((x[0], y0, 0), (x[1], y1, 1))
+        mpm.fill(region, spacing, material, velocity=v, bodies=bodies, **depth)
 O.trackEnergy = energy
 marks = []
 warm = 150 if law == 'yielding' else 10
 O.engines = ([ForceResetter()] if bodies else []) + [
-    MpmEngine(cellSize=2*spacing, analysis='planeStress', shape=shape, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')]),
+    MpmEngine(cellSize=2*spacing, analysis='planeStress' if dim == 2 else '3d', shape=shape, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')]),
     PyRunner(iterPeriod=steps, nDo=6, firstIterRun=warm, command='marks.append((time.perf_counter(), time.process_time()))')]
 O.run(warm + 5*steps + 1, True)
 assert len(marks) == 6, marks
-rate, busy = (across**2*steps/statistics.median(b[k] - a[k] for a, b in zip(marks, marks[1:])) for k in (0, 1))
-print(json.dumps({'points': across**2, 'rate': rate, 'busy': busy, 'bytes': (resident() - before)/across**2}))
+rate, busy = (points*steps/statistics.median(b[k] - a[k] for a, b in zip(marks, marks[1:])) for k in (0, 1))
+print(json.dumps({'points': points, 'rate': rate, 'busy': busy, 'bytes': (resident() - before)/points}))
