@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Checks the manufactured solution of the hysteretic bar (tests/kernel/Manufactured.hpp) by computer algebra: that the stress obeys the
-law, loading and unloading, and that the body force balances momentum.  python3 scripts/verification/hysteretic_solution.py (python3-sympy)"""
+law, loading and unloading, and that the body force balances momentum.  scripts/verify hysteretic_solution"""
 import sympy as sp
 
 X, t, G, T, E, a, y, rho = sp.symbols('X t G T E alpha sigma_y rho', positive=True)

@@ -51,29 +51,44 @@ TEST(HardCasesTest, ImpactAtHalfTheWaveSpeed)
 			}
 }
 
-/* A point that shares no node with another moves as a mass point does. */
+/* A point that shares no node with another moves as a mass point does; also where it lies on nodes, or as near as rounding lets it, and
+goes along them, while something of 10,000 times its mass is elsewhere. */
 TEST(HardCasesTest, ASinglePointAlone)
 {
 	for (Analysis analysis : allAnalyses)
 		for (ShapeKind shape : allShapes)
-			for (Scheme scheme : allSchemes) {
-				SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(scheme));
-				Scene s;
-				s.laws            = { Scene::boucWen(young, .3, density, 1e4, 2, .05) };
-				const double x[3] = { .0123, dimension(analysis) > 1 ? .0321 : 0., dimension(analysis) > 2 ? -.71 : 0. }, v[3] = { 3, 0, 0 };
-				s.points.append(0, 0, x, v, 1, .001, .05, 1);
-				s.start(analysis, shape, .1);
-				s.control.dt = 1e-4, s.control.scheme = scheme, s.control.gravity = { -9.81, 0, 0 };
-				const double limit = s.solver->criticalTimeStep(scheme);
-				EXPECT_GT(limit, s.control.dt);
-				const int steps = 3000; // 0.3 s, five cells
-				s.run(steps);
-				const double t = steps * s.control.dt;
-				// symplectic Euler: a t dt/2 further than the parabola
-				EXPECT_NEAR(s.points.position[0][0], x[0] + 3 * t - .5 * 9.81 * t * (t + s.control.dt), 1e-11);
-				EXPECT_NEAR(s.points.velocity[0][0], 3 - 9.81 * t, 1e-11);
-				EXPECT_NEAR(s.points.deformation[0][0], 1, 1e-10);
-			}
+			for (Scheme scheme : allSchemes)
+				for (bool onNodes : { false, true }) {
+					SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(scheme) + (onNodes ? " on nodes" : ""));
+					const std::array<double, 3> start =
+						onNodes ? std::array<double, 3> { .1, .3, -.7 } : std::array<double, 3> { .0123, .0321, -.71 };
+					double x[3] {}, away[3] { -9.03, .02, .04 };
+					std::copy_n(start.begin(), dimension(analysis), x);
+					const double v[3] = { 3, 0, 0 };
+					Scene        s;
+					s.laws = { Scene::boucWen(young, .3, density, 1e4, 2, .05) };
+					s.points.append(1, 0, away, v, 1e4, 10, .05, 1);
+					s.points.append(0, 0, x, v, 1, .001, .05, 1);
+					s.start(analysis, shape, .1);
+					s.control.dt = 1e-4, s.control.scheme = scheme, s.control.gravity = { -9.81, 0, 0 };
+					const double limit = s.solver->criticalTimeStep(scheme);
+					if (onNodes && shape == ShapeKind::linear && scheme == Scheme::usl) {
+						// takes strain from nodes of next to no mass: there is no step for a point that stays on them, and the limit
+						// says so
+						EXPECT_LT(limit, 1e-3 * s.control.dt);
+						continue;
+					}
+					EXPECT_GT(limit, s.control.dt);
+					const int steps = 3000; // 0.3 s, five cells
+					s.run(steps);
+					const double      t = steps * s.control.dt;
+					const std::size_t p = s.byId()[0];
+					// symplectic Euler: a t dt/2 further than the parabola
+					EXPECT_NEAR(s.points.position[0][p], x[0] + 3 * t - .5 * 9.81 * t * (t + s.control.dt), 1e-11);
+					EXPECT_NEAR(s.points.velocity[0][p], 3 - 9.81 * t, 1e-11);
+					for (std::size_t k = 0; k < s.points.deformation.size(); ++k)
+						EXPECT_NEAR(s.points.deformation[k][p], k % std::size_t(dimension(analysis) + 1) == 0, 1e-10);
+				}
 }
 
 /* Every point yields in the same step: a bar drawn by a wall while its points move in proportion. */
@@ -111,8 +126,13 @@ TEST(HardCasesTest, YieldAtEveryPointAtOnce)
 			}
 }
 
-/* 100 scenes: bodies with holes, stretched, off the grid, with points off their lattice, one in two against walls. 0.95 of the stable
-step does not multiply the energy of small random velocities. */
+/* 100 scenes: bodies with holes, stretched, off the grid, with points off their lattice, one in two against walls, at r = 0.95 of the stable step.
+
+A stable step does let the kinetic energy of small random velocities grow, by a bounded factor. Per mode of A Q (doc/method.md), with y
+its velocity, u its displacement scaled by omega, k = dt omega <= 2 r, the step y' = y - k u, u' = u + k y' keeps y^2 + u^2 - k y u. From
+u = 0 this ellipse reaches y^2 = y_0^2/(1 - k^2/4) <= y_0^2/(1 - r^2) = 10.26 y_0^2. Modes are orthogonal in the metric N^T m N, which is that of
+the kinetic energy, and what of the velocities the grid does not see stays as it is. USF has the sign of k changed. For USL the
+same holds with 1/(1 - r^2/2) = 1.82 where A and Q share their modes, which they do not quite. One per cent for the eigenvalue, known to 1e-4. */
 TEST(LongHardCasesTest, StableStepOfRandomScenes)
 {
 	std::mt19937 random(2017);
@@ -156,7 +176,7 @@ TEST(LongHardCasesTest, StableStepOfRandomScenes)
 		} catch (const StepFailure& e) {
 			worst = HUGE_VAL;
 		}
-		EXPECT_LT(worst, 20);
+		EXPECT_LT(worst, (scheme == Scheme::usl ? 4 : 1.01 / (1 - .95 * .95)));
 	}
 }
 

@@ -7,8 +7,8 @@ mass 5/8 + 3/8 cos theta). MUSL and USF are stable below 2/omega with omega^2 th
 dt = sqrt(3) h/c. USL below dt^2 lambda (2 - q) < 4, whose greatest is 7 (c/h)^2, dt = 0.756 h/c, for which the kernel takes the
 safe sqrt(2/lambda) = 0.7071 h/c. The step that no point crosses a cell in is joined as 1/(1/dt + v/h).
 
-Runs: random velocities of 1e-7 c; at 0.9 of the step the energy stays within what there was at the start, at 1.3 of
-it (USL: 1.5) it grows without bound. Measured: MUSL and USF turn unstable within 1 to 1.05 of the step, USL within
+Runs: random velocities of 1e-7 c; at 0.9 of the step the energy stays within five times what there was at the start
+(1/(1 - 0.9^2) = 5.3 is what it may reach, see HardCasesTest), at 1.2 of it it grows without bound. Measured: MUSL and USF turn unstable within 1 to 1.05 of the step, USL within
 1.05 to 1.2. No linear lattice here has points on nodes: those see another operator once they move at all. */
 #include "Scene.hpp"
 #include <gtest/gtest.h>
@@ -137,13 +137,13 @@ TEST(LongStableStepTest, RunsOnBothSidesOfIt)
 				EXPECT_LT(growth(s, k.analysis, shape, h, scheme, safe * limit, steps), 5);
 				// where it becomes unstable
 				double unstable = 0;
-				for (double factor : { 1., 1.05, 1.1, 1.2, 1.3, 1.5, 2., 3. })
+				for (double factor : { 1., 1.05, 1.1, 1.2 })
 					if (growth(s, k.analysis, shape, h, scheme, factor * limit, steps) > 100) {
 						unstable = factor;
 						break;
 					}
 				EXPECT_GT(unstable, 0);
-				EXPECT_LE(unstable, usl ? 1.5 : 1.3);
+				EXPECT_LE(unstable, 1.2);
 			}
 	}
 }

@@ -161,6 +161,7 @@ private:
 	Column                  m_radialMass;                    // in axisymmetry, see below
 	NodeVector<dim>         m_momentum, m_force, m_velocity; // momentum becomes velocity, force becomes dt * acceleration
 	std::vector<TileReport> m_reports;
+	double                  m_leastMass    = 0;     // nodes with no more are empty but for rounding
 	double                  m_wallHalfSize = 0;     // of the point whose shape functions the bands have been built for
 	bool                    m_laid         = false; // blocks, node arrays and bands are those of the geometry
 	bool                    m_known        = false; // points are in the tiles of m_grid, but where a report says that they have left
@@ -210,9 +211,11 @@ private:
 		m_geometry = geometry, m_kinds = kinds;
 
 		Points& P = m_points;
-		if (!m_known)
+		if (!m_known) {
 			for (std::size_t p = 0; p < P.count(); ++p)
 				requireOnGrid(p);
+			m_leastMass = Shape::rounding * *std::min_element(P.mass.begin(), P.mass.end());
+		}
 		auto baseOf = [&](std::size_t p) {
 			typename Grid::Index base;
 			for (int d = 0; d < dim; ++d)
@@ -632,8 +635,7 @@ private:
 		m_band.unfold(m_walls, m_momentum, true);
 		m_band.unfold(m_walls, m_force, false);
 	}
-	/* Nodes with less than this part of a point's mass are empty but for rounding. */
-	double        leastMass() const { return 1e-14 * m_points.mass.front(); }
+	double        leastMass() const { return m_leastMass; }
 	static double inverseOf(double mass, double least) { return mass > least ? 1 / mass : 0; }
 
 	/* Step 3: v_p += sum N_ip dt a_i (FLIP), displacement dt sum N_ip v_i   (eq. 15)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace yade::mpm {
@@ -11,6 +12,7 @@ Each struct has
   support          number of consecutive nodes that a point touches
   row              the same, filled up to a whole number of vectors
   usesSize         whether the point's own size enters
+  rounding         a node with no more than this part of a point's mass is none that it touches
   shift(r)         the first of those nodes is base = floor(xi - shift), for a point at xi (in cells, from node 0)
   evaluate(...)    values N[k] and derivatives dN[k] = dN/dxi at nodes base+k, k < support or < row
 
@@ -18,21 +20,28 @@ where r is half the point's size in cells (only GIMP looks at it). Steffen, Kirb
 Engng 76 (2008) 922; the quadratic spline is centred at a node, its knots at mid-cells. */
 
 struct LinearShape {
-	static constexpr int  support = 2, row = 2;
-	static constexpr bool usesSize = false;
-	static double         shift(double) { return 0; }
-	static void           evaluate(double xi, double base, double, double* N, double* dN)
+	static constexpr int    support = 2, row = 2;
+	static constexpr bool   usesSize = false;
+	static constexpr double rounding = 0; // N is at least `beside` to the power of the dimension
+	static double           shift(double) { return 0; }
+	static void             evaluate(double xi, double base, double, double* N, double* dN)
 	{
-		const double s = xi - base;
+		const double s = std::min(std::max(xi - base, beside), 1 - beside);
 		N[0] = 1 - s, N[1] = s;
 		dN[0] = -1, dN[1] = 1;
 	}
+
+private:
+	/* A point exactly on a node counts as this far beside it: the next node then has its velocity. Without any mass it would have none, and
+	the point would see a gradient, which does not vanish with N, to nothing. */
+	static constexpr double beside = 1e-15;
 };
 
 struct QuadraticShape {
-	static constexpr int  support = 3, row = 4;
-	static constexpr bool usesSize = false;
-	static double         shift(double) { return .5; }
+	static constexpr int    support = 3, row = 4;
+	static constexpr bool   usesSize = false;
+	static constexpr double rounding = 1e-14;
+	static double           shift(double) { return .5; }
 	/* N = a + b u^2, u = o + g s, with s from the middle node, in [-1/2, 1/2) */
 	template <int count = support> static void evaluate(double xi, double base, double, double* N, double* dN)
 	{
@@ -48,9 +57,10 @@ struct QuadraticShape {
 };
 
 struct CubicShape {
-	static constexpr int  support = 4, row = 4;
-	static constexpr bool usesSize = false;
-	static double         shift(double) { return 1; }
+	static constexpr int    support = 4, row = 4;
+	static constexpr bool   usesSize = false;
+	static constexpr double rounding = 1e-14;
+	static double           shift(double) { return 1; }
 	/* N = a + u^2 (b + c u), u = o + g s: the distance from one of the two middle nodes, in [0, 1] */
 	template <int count = support> static void evaluate(double xi, double base, double, double* N, double* dN)
 	{
@@ -69,10 +79,11 @@ struct CubicShape {
 /* Uniform GIMP: the hat averaged over the point's initial domain [xi - r, xi + r], 0 < r <= 1/2.
 Bardenhagen & Kober, CMES 5 (2004) 477. */
 struct GimpShape {
-	static constexpr int  support = 3, row = 4;
-	static constexpr bool usesSize = true;
-	static double         shift(double r) { return r; }
-	static void           evaluate(double xi, double base, double r, double* N, double* dN)
+	static constexpr int    support = 3, row = 4;
+	static constexpr bool   usesSize = true;
+	static constexpr double rounding = 1e-14;
+	static double           shift(double r) { return r; }
+	static void             evaluate(double xi, double base, double r, double* N, double* dN)
 	{
 		for (int k = 0; k < support; ++k) {
 			const double lo = clamp(xi - r - base - k), hi = clamp(xi + r - base - k);
