@@ -133,7 +133,7 @@ def taylor(cells, shape, mean):
 	if cells == 8 and shape == 'linear':
 		side = np.array([1 if mean else -1, 1])
 		draw(axes[1, 1], 1e3*x[:, :2]*side, mpm.array('plasticStrain'), 5, (0, 2.5), xlabel='r [mm]', ylabel='z [mm]',
-			title="Taylor's bar, linear, plastic strain: without and with mean dilatation", ylim=(0, 10))
+			title="Taylor's bar, linear: plastic strain\nwithout (left) and with mean dilatation (right)", ylim=(0, 10))
 	return length, foot, abs(np.array(energies)/energies[0] - 1).max()
 
 
