@@ -60,8 +60,8 @@ def fill(region, spacing, material, thickness=None, velocity=(0, 0, 0), bodies=T
 	if plane: axes.append(numpy.zeros(1))
 	positions = numpy.ascontiguousarray(numpy.stack(numpy.meshgrid(*axes, indexing='ij'), axis=-1).reshape(-1, 3))
 	if inside is not None:
-		candidates = positions.tolist()  # YADE's own predicates take a list for a point, in half the time
-		if not type(inside).__module__.endswith('_packPredicates'): candidates = (Vector3(*x) for x in candidates)
+		candidates = (x for begin in range(0, len(positions), 10000) for x in positions[begin:begin + 10000].tolist())  # Python is slow with many lists at a time
+		if not type(inside).__module__.endswith('_packPredicates'): candidates = (Vector3(*x) for x in candidates)  # YADE's own take a list for a point, in half the time
 		positions = positions[numpy.fromiter((inside(x, 0) for x in candidates), bool, len(positions))]
 	if len(positions) == 0:
 		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region%s'

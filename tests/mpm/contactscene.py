@@ -120,6 +120,17 @@ check('a grain added in mid-run lands on the block', any(late in c and (c[0] in 
 check('points added in mid-run land on a grain', any(below in c and (c[0] in new or c[1] in new) for c in met), sorted(met))
 check('the scene is finite', numpy.isfinite(motion([b.id for b in O.bodies])).all())
 
+# O.bodies.clear() leaves the contacts of the bodies, on which YADE's next step may crash
+scene(row)
+O.dt = .2*mpm.criticalTimeStep()
+O.run(3, True)
+check('the scene has contacts', len(touching()) > 0)
+O.interactions.clear()
+O.bodies.clear()
+again = mpm.fill(((0, 0, 0), (.5, .5, .25)), spacing=.125, material='m')
+O.run(5, True)
+equal('a scene that was emptied is filled again', (len(mpm.array('id')), len(again), len(O.bodies)), (32, 32, 32))
+
 # ---- saved with contacts, loaded, continued ---------------------------------------------------------------------------
 # each grain above one point; a facet beside the block that a second block hits
 ids, balls, grid = scene([((.1875 + .25*k, .5625, .5 + .11), (.2*(-1)**k, .1, -1), .1) for k in range(3)])
