@@ -69,6 +69,7 @@ void MpmEngine::step()
 	mpm::StepControl control = prepare();
 	if (m_points->count() == 0) return;
 	readBodies();
+	if (m_points->count() == 0) return; // the last ones have been erased
 	const bool stepper = checkClocks();
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
@@ -77,11 +78,12 @@ void MpmEngine::step()
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
 	if (TimingInfo::enabled) clock.lap("points to bodies");
+	m_origins.resize(walls.size());
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
 			walls[w]->force[d] = wall.force[std::size_t(d)];
-		walls[w]->origin += scene->dt * walls[w]->velocity;
+		m_origins[w] = walls[w]->origin += scene->dt * walls[w]->velocity;
 	}
 }
 
@@ -154,7 +156,7 @@ mpm::StepControl MpmEngine::prepare()
 	control.scheme      = schemeOf(scheme);
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation;
-	control.threads     = ompThreads > 0 ? ompThreads : omp_get_max_threads();
+	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
 	return control;
 }
 
@@ -198,6 +200,7 @@ void MpmEngine::prepareSolver()
 	auto&               runtime      = m_points->runtime;
 	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
 		m_points->finish();
+		if (m_solver) acousticFor.clear();
 		require(points.stress.empty() || points.stress.size() == columns, self, "analysis", "'" + analysis + "'",
 			"the points already carry the stress of another analysis; make new points");
 		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
@@ -208,10 +211,9 @@ void MpmEngine::prepareSolver()
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
-		if (m_points->filled) m_continuity.forget(); // ids of erased bodies are given again
+		if (m_points->filled) m_continuity.forget(), acousticFor.clear(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
 		m_points->filled = false;
-		m_checkedFor.clear();
 	}
 	if (shape == "gimp") checkGimp();
 
@@ -341,8 +343,8 @@ bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 	std::vector<Real> now { Real(control.scheme), Real(m_points->count()) };
 	for (const mpm::Law& law : m_points->runtime.laws)
 		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
-	if (now == m_checkedFor) return false;
-	m_checkedFor = std::move(now);
+	if (now == acousticFor) return false;
+	acousticFor = std::move(now);
 	return true;
 }
 
@@ -365,22 +367,24 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	const bool     loaded   = m_checkedFor.empty() && acousticLimit > 0; // a scene goes on with what it was saved with
-	if (((stiffnessChanged(control) && !loaded) || scene->iter % interval == 0)) acousticLimit = m_solver->acousticTimeStep(control.scheme);
+	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
 
-/* Looks for gaps when two points can have gone half a cell apart since the last look, at the velocities that they had then. */
+/* Looks for gaps when two points can have gone half a cell apart since the last look, at the velocities that they had then, and at the
+latest after twice as many steps as before it: they may speed up. */
 void MpmEngine::checkContinuity(const mpm::StepControl& control)
 {
 	if (largestGap == std::numeric_limits<Real>::infinity()) return;
+	const auto stands = [](const shared_ptr<MpmWall>& wall, const Vector3r& origin) { return wall->origin == origin; };
+	if (!std::equal(walls.begin(), walls.end(), m_origins.begin(), m_origins.end(), stands)) m_continuity.forget(); // put elsewhere by a script
 	if (m_untilLook > 0) {
 		--m_untilLook;
 		return;
 	}
 	m_continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
-	m_untilLook = long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)) - 1;
+	m_untilLook = m_interval = std::min(2 * m_interval, long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)));
 }
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------
@@ -435,7 +439,8 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 	const auto*      materials = m_points->materials.data();
 
 	bool erased   = false;
-	Real offPlane = 0, nonFinite = 0; // what is not nothing of them
+	bool refused  = false;
+	Real offPlane = 0;
 	for (std::size_t p = 0; p < n; ++p) {
 		if (ids[p] < 0) continue;
 		const auto id = std::size_t(ids[p]);
@@ -450,17 +455,20 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 		State&          state = *m_links[id].state.get();
 		const Vector3r &force = forces.getForce(ids[p]), &position = state.se3.position, &velocity = state.vel;
 		const Real      sum = force[0] + force[1] + force[2] + position[0] + position[1] + position[2] + velocity[0] + velocity[1] + velocity[2];
-		nonFinite += sum - sum;
+		if (!(sum - sum == 0)) {
+			refused = true;
+			continue;
+		}
 		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
-		Real       gone = 0, changed = !before;
+		Real       gone = 0, gained = 0;
 		for (int d = 0; d < dim; ++d) {
 			f[d][p] = force[d];
 			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
-			if (before) changed += std::abs(velocity[d] - points.moving[std::size_t(d)][p]);
+			const Real old = v[d][p];
+			v[d][p]        = before ? old + (velocity[d] - points.moving[std::size_t(d)][p]) : velocity[d];
+			gained += v[d][p] * v[d][p] - old * old;
 		}
-		if (changed != 0 && points.energies.started) bookVelocity(p, state);
-		for (int d = 0; d < dim && changed != 0; ++d)
-			v[d][p] = velocity[d];
+		points.energies.external -= .5 * points.mass[p] * gained; // what a script gives in kinetic energy is external work
 		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
 		if (gone != 0) moved.push_back(p);
 		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
@@ -474,11 +482,12 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 		if (body->material.get() != materials[points.material[p]].get()) {
 			m_points->finish();
 			m_points->changeMaterial(p, body->material);
+			m_continuity.forget(); // of some laws points are left out
 			prepareSolver();
 			materials = m_points->materials.data();
 		}
 	}
-	if (offPlane != 0 || nonFinite != 0) refuseStates(dim);
+	if (offPlane != 0 || refused) refuseStates(dim);
 	return erased;
 }
 
@@ -498,15 +507,6 @@ void MpmEngine::refuseStates(int dim) const
 		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],
 			"in a plane analysis points lie at z = 0 and stay there");
 	}
-}
-
-/* What a script gives a point in kinetic energy is external work. */
-void MpmEngine::bookVelocity(std::size_t p, const State& state)
-{
-	mpm::Points& points = m_points->points;
-	if (!state.vel.allFinite()) return; // which ends the run
-	for (std::size_t d = 0; d < points.advance.size(); ++d)
-		points.energies.external += .5 * points.mass[p] * (points.velocity[d][p] * points.velocity[d][p] - state.vel[int(d)] * state.vel[int(d)]);
 }
 
 /* Torque on a point that touches another body; one that does so no more shows its own velocity again. */

@@ -32,8 +32,9 @@ public:
 		((bool, thinning, false, , "Plane stress in large strain: whether the thickness follows the strain normal to the plane (True) or is kept (False)."))
 		((bool, meanDilatation, false, , "Against volumetric locking, of plastic flow or of Poisson ratios near 0.5, in 'planeStrain', 'axisymmetric' and '3d': the points of a cell (with 'quadratic' functions of a cell shifted by half) change their volume as one, by the mean of their volume strains, and their forces take the mean of their pressures (B-bar: Nagtegaal, Parks & Rice, CMAME 4 (1974) 153; doc/method.md). A point's own stress then holds part of a pressure that does no work; its deviator is the point's. Needed by 'linear' and 'gimp' functions, and by splines near incompressibility; a step of elastic points takes about twice as long."))
 		((Real, timeStepSafety, 0, , "Where > 0, the engine sets O.dt before each step [-]: this part of the stable step, which follows the points' velocities at every step and the stiffness, density and place of the points every 500 steps. Beside an active TimeStepper (GlobalStiffnessTimeStepper) O.dt is the lesser of the two; the order is TimeStepper, MpmEngine, NewtonIntegrator. 0 leaves O.dt to the script. 0.4 suits most scenes."))
-		((Real, largestGap, 2, , "Largest gap that may open between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]: what their distance has more than the deformation of the material between them accounts for. A wider one is numerical fracture, the points share no node any more, and ends the run with their ids. Looked at whenever points can have moved a quarter of a cell, every 10 to 1000 steps. inf where a body is meant to come apart, or for no checks at all. Points of a DruckerPragerMat, which lets go in tension, are left out."))
+		((Real, largestGap, 2, , "Largest gap that may open between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]: what their distance has more than the deformation of the material between them accounts for. A wider one is numerical fracture, the points share no node any more, and ends the run with their ids. Looked at whenever points can have moved a quarter of a cell at the velocities of the last look, every 10 to 1000 steps, and after at most twice as many steps as before that look. inf where a body is meant to come apart, or for no checks at all. Points of a DruckerPragerMat, which lets go in tension, are left out."))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
+		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, number of points and laws for which the stable step was last looked at"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
 		,
 		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
@@ -50,8 +51,7 @@ private:
 	mpm::Solver*                               m_solver       = nullptr;
 	std::size_t                                m_bodies       = 0; // points that have one
 	std::size_t                                m_checkedCount = 0;
-	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable ...
-	std::vector<Real>                          m_checkedFor;       // ... with this scheme and these laws
+	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable
 
 	enum class Role { other, self, stepper, newton, loop };
 	struct Checked { // of O.engines, when its order was checked
@@ -61,8 +61,9 @@ private:
 	};
 	std::vector<Checked> m_checkedEngines;
 
-	mpm::Continuity m_continuity;
-	long            m_untilLook = 0; // steps, at its gaps
+	mpm::Continuity       m_continuity;
+	long                  m_untilLook = 0, m_interval = 5; // steps to the next look at its gaps, and from the last one to it
+	std::vector<Vector3r> m_origins;                       // of the walls, as the last step has left them
 
 	struct Link { // held, so that their addresses are theirs alone
 		shared_ptr<Body>  body;
@@ -89,7 +90,6 @@ private:
 	void                         readBodies();
 	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
 	void                         refuseStates(int dim) const;
-	void                         bookVelocity(std::size_t p, const State& state);
 	void                         readContact(std::size_t p, bool touched, State& state);
 	void                         writeBodies();
 	void                         reportEnergies() const;

@@ -78,6 +78,16 @@ const Body* MpmPoints::bodyOf(std::size_t p, const BodyContainer& bodies) const
 	return state && state->pointId == id ? body : nullptr;
 }
 
+/* Which analysis the points' columns are of. */
+mpm::Analysis MpmPoints::analysis() const
+{
+	switch (points.stress.size()) {
+		case 3: return mpm::Analysis::planeStress;
+		case 6: return mpm::Analysis::solid;
+		default: return points.thickness.front() < 0 ? mpm::Analysis::axisymmetric : mpm::Analysis::planeStrain;
+	}
+}
+
 void MpmPoints::dropErased(const BodyContainer& bodies)
 {
 	std::vector<std::size_t> kept;
@@ -86,9 +96,14 @@ void MpmPoints::dropErased(const BodyContainer& bodies)
 		if (points.id[p] < 0 || bodyOf(p, bodies))
 			kept.push_back(p);
 		else if (energies.started) {
-			const mpm::Energies held = runtime.solver->held(p);
-			energies.external += held.kinetic + held.elastic + held.hardening;
-			energies.elastic -= held.elastic, energies.hardening -= held.hardening;
+			// without a solver, which a loaded scene does not have yet
+			const mpm::Energies stored = mpm::storedEnergy(analysis(), runtime.laws[std::size_t(points.material[p])], points, p);
+			const Real          V = volume(p), elastic = V * stored.elastic, hardening = V * stored.hardening;
+			Real                kinetic = 0;
+			for (const mpm::Column& v : points.velocity)
+				kinetic += .5 * points.mass[p] * v[p] * v[p];
+			energies.external += kinetic + elastic + hardening;
+			energies.elastic -= elastic, energies.hardening -= hardening;
 		}
 	if (kept.size() < points.count()) points.select(kept);
 }

@@ -60,7 +60,8 @@ public:
 	/* Gives a point another material; throws where its internal variables would not fit. */
 	void changeMaterial(std::size_t p, const shared_ptr<Material>& material);
 	/* The body that stands for a point, or null where it has none (any more). */
-	const Body* bodyOf(std::size_t p, const BodyContainer& bodies) const;
+	const Body*   bodyOf(std::size_t p, const BodyContainer& bodies) const;
+	mpm::Analysis analysis() const;
 	/* Drops the points whose bodies have been erased; what they held leaves the balance of energies as external work. */
 	void dropErased(const BodyContainer& bodies);
 	/* Index of the point with this id in the arrays as they stand; throws where there is none. */

@@ -187,4 +187,26 @@ TEST(FailureTest, VolumeThatIsNotPositive)
 			}
 }
 
+/* Sheared by its own size and more in a step. A law with sub-steps would follow for long, and nobody could use what comes out. */
+TEST(FailureTest, DeformedBeyondMeasureInAStep)
+{
+	for (Scheme scheme : allSchemes)
+		for (bool mixed : { false, true }) { // blocks of one material, and of two
+			SCOPED_TRACE(std::string(name(scheme)) + (mixed ? " mixed" : ""));
+			Scene s          = block(Analysis::planeStrain);
+			s.laws           = { Scene::boucWen(1e6, .3, 1000, 1e4, 25, 0), Scene::elastic(1e6, .3, 1000) };
+			s.control.scheme = scheme;
+			s.walls.clear();
+			for (std::size_t p = 0; p < s.points.count() && mixed; p += 2)
+				s.points.material[p] = 1;
+			s.start(Analysis::planeStrain, ShapeKind::cubic, .25);
+			s.run(2);
+			s.setVelocity([&](auto x) { return std::array<double, 3> { 2 * (x[1] - .5) / s.control.dt, 0, 0 }; });
+			int               id   = -1;
+			const std::string text = failure(s, 1, id);
+			expectSays(text, { ("material point " + std::to_string(id) + " ").c_str(), "more than its own size in a step", "reduce O.dt" });
+			EXPECT_TRUE(sound(s));
+		}
+}
+
 } // namespace

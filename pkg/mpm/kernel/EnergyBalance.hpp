@@ -53,27 +53,12 @@ template <class S, class Shape> void MpmSolver<S, Shape>::startEnergies()
 	energies           = {};
 	energies.started   = true;
 	for (std::size_t p = 0; p < m_points.count(); ++p) {
-		const Energies of = held(p);
-		energies.elastic += of.elastic, energies.hardening += of.hardening;
+		double F[dim * dim];
+		for (int k = 0; k < dim * dim; ++k)
+			F[k] = m_points.deformation[k][p];
+		const Energies stored = storedEnergy(m_analysis, m_laws[m_points.material[p]], m_points, p);
+		energies.elastic += volume(p, F) * stored.elastic, energies.hardening += volume(p, F) * stored.hardening;
 	}
-}
-
-template <class S, class Shape> Energies MpmSolver<S, Shape>::held(std::size_t p) const
-{
-	double     F[dim * dim], sigma[N], internal[Internals::most(N)];
-	const Law& law = m_laws[m_points.material[p]];
-	for (int k = 0; k < dim * dim; ++k)
-		F[k] = m_points.deformation[k][p];
-	for (int k = 0; k < N; ++k)
-		sigma[k] = m_points.stress[k][p];
-	for (std::size_t k = 0; k < m_points.internal.size(); ++k)
-		internal[k] = m_points.internal[k][p];
-	Energies energies;
-	energies.elastic   = volume(p, F) * elasticEnergy<S>(law, sigma, internal);
-	energies.hardening = volume(p, F) * hardeningEnergy<S>(law, internal);
-	for (int d = 0; d < dim; ++d)
-		energies.kinetic += .5 * m_points.mass[p] * m_points.velocity[d][p] * m_points.velocity[d][p];
-	return energies;
 }
 
 /* Nodal masses and forces as the points have spread them, before the walls fold them, and the external part of the forces. */

@@ -121,9 +121,8 @@ public:
 		return nodes;
 	}
 
-	double   acousticTimeStep(Scheme scheme) override;
-	Energies held(std::size_t p) const override;
-	double   crossingRate() const override;
+	double acousticTimeStep(Scheme scheme) override;
+	double crossingRate() const override;
 
 private:
 	static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -141,9 +140,10 @@ private:
 		int first;                                          // node of the patch
 	};
 	using WeightLanes = Weights[lanes];
-	struct TileReport {                    // what a pass has to say of a tile
-		bool           left   = false; // a point is no longer the tile's, or worse
-		std::ptrdiff_t failed = -1;    // a point whose volume is not positive
+	struct TileReport {                      // what a pass has to say of a tile
+		bool           left   = false;   // a point is no longer the tile's, or worse
+		std::ptrdiff_t failed = -1;      // a point whose stress cannot be updated ...
+		const char*    why    = nullptr; // ... and what of it
 	};
 
 	Analysis                m_analysis;
@@ -827,7 +827,7 @@ private:
 	static constexpr int turns = dim == 3 ? 3 : dim - 1;
 	static constexpr int from(int k) { return dim == 3 ? (k + 1) % 3 : 0; }
 	static constexpr int to(int k) { return dim == 3 ? (k + 2) % 3 : dim - 1; }
-	void divideByMass(NodeVector<dim>& field) const
+	void                 divideByMass(NodeVector<dim>& field) const
 	{
 		forEachNodeRange([&](std::size_t begin, std::size_t end) {
 			const double least = leastMass();
@@ -865,7 +865,7 @@ private:
 		for (int l = 0; l < lanes; ++l)
 			displacementGradient(w[std::min(l, block.count - 1)], v, x[0][l], l, G);
 		if (averages(m_stressControl)) takeMeanDilatation(block, w, dilatations, G);
-		if (!updateBlockStress(t, block, G))
+		if (!areModerate(G) || !updateBlockStress(t, block, G))
 			for (int l = 0; l < block.count; ++l) {
 				double Gp[gradients<S>];
 				for (int k = 0; k < gradients<S>; ++k)
@@ -890,6 +890,22 @@ private:
 		}
 		if constexpr (hoop) G[dim * dim][l] = m_stressControl.dt * gather(w, v[0]) / r;
 	}
+	/* Whether no point is deformed by as much as its own size in this step. Beyond, the run has failed, and a law would take
+	sub-steps for ever. */
+	static bool areModerate(const Lanes (&G)[gradients<S>])
+	{
+		int moderate = 1;
+		for (int k = 0; k < gradients<S>; ++k)
+#pragma omp simd reduction(& : moderate)
+			for (int l = 0; l < lanes; ++l)
+				moderate &= std::abs(G[k][l]) <= 1;
+		return moderate;
+	}
+	void reportFailure(std::size_t t, std::size_t p, const char* why)
+	{
+		if (m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(p), m_reports[t].why = why;
+	}
+	static constexpr const char* noVolume = "has a volume that is not positive";
 	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
 	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[gradients<S>])
 	{
@@ -927,7 +943,7 @@ private:
 			const double      e = b.response.freeStrain[l];
 			if (follows) m_points.freeStrain[p] += e;
 			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * e) / (1 - .5 * e);
-			if (!(determinantOf(b.F, l) > 0) && m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(p);
+			if (!(determinantOf(b.F, l) > 0)) reportFailure(t, p, noVolume);
 		}
 		return true;
 	}
@@ -960,6 +976,10 @@ private:
 			internal[k] = m_points.internal[k][p];
 		for (int k = 0; k < dim * dim; ++k)
 			F[k] = m_points.deformation[k][p];
+		if (!std::all_of(G, G + gradients<S>, [](double g) { return std::abs(g) <= 1; })) {
+			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
+			return reportFailure(t, p, determinant<dim>(F) > 0 ? "is deformed by more than its own size in a step" : noVolume);
+		}
 		Increment<S> increment;
 		if (m_stressControl.largeStrain) {
 			increment.large(G);
@@ -989,7 +1009,7 @@ private:
 			m_points.internal[k][p] = internal[k];
 		for (int k = 0; k < dim * dim; ++k)
 			m_points.deformation[k][p] = F[k];
-		if (!(determinant<dim>(F) > 0) && m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(p);
+		if (!(determinant<dim>(F) > 0)) reportFailure(t, p, noVolume);
 	}
 
 	/* USF: v_i from the points as they are, walls. */
@@ -1049,7 +1069,7 @@ private:
 			if (report.failed >= 0) {
 				const std::size_t p = std::size_t(report.failed);
 				report.failed       = -1;
-				fail(p, "has a volume that is not positive", "reduce O.dt or the load, or use more points a cell");
+				fail(p, report.why, "reduce O.dt or the load, or use more points a cell");
 			}
 	}
 	/* Points that have left their tile ask for a new sorting; those that have left the scene stop the run. */

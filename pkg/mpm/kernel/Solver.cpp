@@ -31,4 +31,28 @@ std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double ce
 	throw std::logic_error("unknown analysis");
 }
 
+template <class S> Energies storedEnergyOf(const Law& law, const Points& points, std::size_t p)
+{
+	double sigma[S::N], internal[Internals::most(S::N)];
+	for (std::size_t k = 0; k < std::size_t(S::N); ++k)
+		sigma[k] = points.stress[k][p];
+	for (std::size_t k = 0; k < points.internal.size(); ++k)
+		internal[k] = points.internal[k][p];
+	Energies stored;
+	stored.elastic = elasticEnergy<S>(law, sigma, internal), stored.hardening = hardeningEnergy<S>(law, internal);
+	return stored;
+}
+
+Energies storedEnergy(Analysis analysis, const Law& law, const Points& points, std::size_t p)
+{
+	switch (analysis) {
+		case Analysis::uniaxial: return storedEnergyOf<Uniaxial>(law, points, p);
+		case Analysis::planeStress: return storedEnergyOf<PlaneStress>(law, points, p);
+		case Analysis::planeStrain: return storedEnergyOf<PlaneStrain>(law, points, p);
+		case Analysis::axisymmetric: return storedEnergyOf<Axisymmetric>(law, points, p);
+		case Analysis::solid: return storedEnergyOf<Solid>(law, points, p);
+	}
+	throw std::logic_error("unknown analysis");
+}
+
 } // namespace yade::mpm

@@ -71,8 +71,6 @@ public:
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
 	double criticalTimeStep(Scheme scheme) { return 1 / (1 / acousticTimeStep(scheme) + crossingRate()); }
-	/* Kinetic, elastic and hardening energy of a point, after finish(). */
-	virtual Energies held(std::size_t p) const = 0;
 	/* The nodes of the last step, with the velocities that it ended with. */
 	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */
@@ -87,5 +85,8 @@ int stressComponents(Analysis analysis);
 
 /* points, laws and walls stay the caller's and are read anew each step; walls' forces are written. */
 std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double cellSize, Points& points, const std::vector<Law>& laws, std::vector<Wall>& walls);
+
+/* Elastic and hardening energy that a point holds and can give back, over its volume [J/m3]. */
+Energies storedEnergy(Analysis analysis, const Law& law, const Points& points, std::size_t p);
 
 } // namespace yade::mpm
