@@ -5,8 +5,7 @@
 	     those without the remedy; F is that without it but for this factor. Forces are those of stresses averaged by hand. To rounding
   locking    what locks without the remedy does not with it: Cook's membrane, a strip footing, Taylor's bar, coarse;
 	     scripts/verification/locking.py has them finer, with what is known of the exact results
-  impact     the balance of energies closes as well as without: strains alone averaged, or pressures alone, gain or lose
-	     a tenth of the energy here
+  impact     the balance of energies closes as well as without
   order      manufactured solution of Manufactured.hpp */
 #include "Manufactured.hpp"
 #include <gtest/gtest.h>
