@@ -460,15 +460,13 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 			continue;
 		}
 		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
-		Real       gone = 0, gained = 0;
+		Real       gone   = 0;
+		if (before || points.energies.started) takeVelocity(p, before, velocity);
 		for (int d = 0; d < dim; ++d) {
 			f[d][p] = force[d];
+			if (!before) v[d][p] = velocity[d];
 			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
-			const Real old = v[d][p];
-			v[d][p]        = before ? old + (velocity[d] - points.moving[std::size_t(d)][p]) : velocity[d];
-			gained += v[d][p] * v[d][p] - old * old;
 		}
-		points.energies.external -= .5 * points.mass[p] * gained; // what a script gives in kinetic energy is external work
 		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
 		if (gone != 0) moved.push_back(p);
 		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
@@ -489,6 +487,18 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 	}
 	if (offPlane != 0 || refused) refuseStates(dim);
 	return erased;
+}
+
+/* What a script has changed of the velocity that a body shows is changed of its own, and what it gives in kinetic energy is external work. */
+void MpmEngine::takeVelocity(std::size_t p, bool touched, const Vector3r& shown)
+{
+	mpm::Points& points = m_points->points;
+	for (std::size_t d = 0; d < points.force.size(); ++d) {
+		Real&      v   = points.velocity[d][p];
+		const Real old = v;
+		v              = touched ? old + (shown[int(d)] - points.moving[d][p]) : shown[int(d)];
+		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
+	}
 }
 
 /* Complains of the first body whose force, position or velocity cannot be. */

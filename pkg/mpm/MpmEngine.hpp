@@ -89,6 +89,7 @@ private:
 	bool                         link(std::size_t p);
 	void                         readBodies();
 	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
+	void                         takeVelocity(std::size_t p, bool touched, const Vector3r& shown);
 	void                         refuseStates(int dim) const;
 	void                         readContact(std::size_t p, bool touched, State& state);
 	void                         writeBodies();
