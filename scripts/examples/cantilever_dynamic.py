@@ -66,6 +66,7 @@ def main():
 	samples = 200
 	every = int(DURATION/O.dt)//samples + 1
 	steps = samples*every
+	O.dt = DURATION/steps # ends with the reference
 
 	global sample # where PyRunner finds it
 	def sample():
