@@ -73,6 +73,7 @@ void MpmEngine::step()
 	const bool stepper = checkClocks();
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
+	planFilter(control);
 	if (TimingInfo::enabled) control.clock = &clock, clock.lap("bodies to points");
 	m_solver->step(control);
 	writeBodies();
@@ -103,7 +104,7 @@ Real MpmEngine::criticalTimeStep()
 	const auto             lock    = attach();
 	const mpm::StepControl control = prepare();
 	readBodies();
-	return m_solver->criticalTimeStep(control.scheme);
+	return m_solver->criticalTimeStep(control.scheme, control.fullMass);
 }
 
 /* Finds the scene's points and keeps Python's thread off them. */
@@ -137,6 +138,9 @@ mpm::StepControl MpmEngine::prepare()
 	require(!meanDilatation || analysisKind != mpm::Analysis::planeStress, self, "meanDilatation", meanDilatation,
 		"in plane stress the thickness is free to keep the volume, and nothing locks; set meanDilatation = False");
 
+	require(!fullMass || scheme == "MUSL", self, "fullMass", fullMass, "only MUSL has a step for the full mass; set scheme = 'MUSL' or fullMass = False");
+	require(filterTime >= 0, self, "filterTime", filterTime, "give a time > 0 [s], e.g. some periods of the slowest vibration, or 0 for no filter");
+
 	if (m_checkedEngines.size() != scene->engines.size()
 		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
 			[](const Checked& a, const shared_ptr<Engine>& b) { return a.engine == b.get() && a.dead == b->dead; }))
@@ -155,7 +159,7 @@ mpm::StepControl MpmEngine::prepare()
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
 	control.largeStrain = largeStrain, control.thinning = thinning;
-	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation;
+	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
 	return control;
 }
@@ -340,7 +344,7 @@ bool MpmEngine::checkClocks() const
 /* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(m_points->count()) };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()) };
 	for (const mpm::Law& law : m_points->runtime.laws)
 		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
 	if (now == acousticFor) return false;
@@ -353,7 +357,7 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
 	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
 	m_checkedStep    = 0;
-	const Real limit = m_solver->criticalTimeStep(control.scheme);
+	const Real limit = m_solver->criticalTimeStep(control.scheme, control.fullMass);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
 			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; "
@@ -367,9 +371,21 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme);
+	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme, control.fullMass);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
+}
+
+/* What the step filters: all that would have faded since the last time. */
+void MpmEngine::planFilter(mpm::StepControl& control)
+{
+	constexpr Real part = .02; // of filterTime, at least, between two times
+	if (filterTime == 0) return;
+	const Real end = control.time + control.dt;
+	if (filteredAt > control.time) filteredAt = control.time; // O.time has been set back
+	if (end - filteredAt < part * filterTime) return;
+	control.filter = -std::expm1(-(end - filteredAt) / filterTime);
+	filteredAt     = end;
 }
 
 /* Looks for gaps when two points can have gone half a cell apart since the last look, at the velocities that they had then, and at the

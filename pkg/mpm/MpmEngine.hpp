@@ -31,10 +31,13 @@ public:
 		((bool, largeStrain, true, , "True: stress and back stress turn with the material (Hughes & Winget 1980), volumes are current. False: linear kinematics, initial volumes."))
 		((bool, thinning, false, , "Plane stress in large strain: whether the thickness follows the strain normal to the plane (True) or is kept (False)."))
 		((bool, meanDilatation, false, , "Against volumetric locking, of plastic flow or of Poisson ratios near 0.5, in 'planeStrain', 'axisymmetric' and '3d': the points of a cell (with 'quadratic' functions of a cell shifted by half) change their volume as one, by the mean of their volume strains, and their forces take the mean of their pressures (B-bar: Nagtegaal, Parks & Rice, CMAME 4 (1974) 153; doc/method.md). A point's own stress then holds part of a pressure that does no work; its deviator is the point's. Needed by 'linear' and 'gimp' functions, and by splines near incompressibility; a step of elastic points takes about twice as long."))
+		((bool, fullMass, false, , "Scheme 'MUSL': whether the inverse of the full mass matrix, approximated by 2 - Q with Q from nodes to points and back, takes the place of the lumped one's in nodal accelerations and velocities (after Nairn & Hammerquist, CMAME 377 (2021) 113667; doc/method.md). Motion is then of fourth order in the cell size, where points are not much out of their lattice, instead of second; what is at rest does not change. A step takes about twice as long and the stable one is shorter, by a third with cubic functions: mpm.criticalTimeStep() knows. With flip = 0 it is FMPM(2)."))
+		((Real, filterTime, 0, , "Time with which velocities fade that the grid does not see, (1 - S S+)^2 v with S from nodes to points and S+ back (XPIC(2): Hammerquist & Nairn, CMAME 318 (2017) 724), >= 0 [s]; 0: they stay, as FLIP leaves them. Applied once in filterTime/50 or at every step, whichever is rarer, so that it costs nothing to speak of where filterTime is many steps. In long runs a few periods of the slowest vibration keep points from heating up (doc/accuracy); motion that the grid resolves is touched a little, mpmDamping has what it takes."))
 		((Real, timeStepSafety, 0, , "Where > 0, the engine sets O.dt before each step [-]: this part of the stable step, which follows the points' velocities at every step and the stiffness, density and place of the points every 500 steps. Beside an active TimeStepper (GlobalStiffnessTimeStepper) O.dt is the lesser of the two; the order is TimeStepper, MpmEngine, NewtonIntegrator. 0 leaves O.dt to the script. 0.4 suits most scenes."))
 		((Real, largestGap, 2, , "Largest gap that may open between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]: what their distance has more than the deformation of the material between them accounts for. A wider one is numerical fracture, the points share no node any more, and ends the run with their ids. Looked at whenever points can have moved a quarter of a cell at the velocities of the last look, every 10 to 1000 steps, and after at most twice as many steps as before that look. inf where a body is meant to come apart, or for no checks at all. Points of a DruckerPragerMat, which lets go in tension, are left out."))
+		((Real, filteredAt, 0, (Attr::hidden), "Time of the last filtering [s]"))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
-		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, number of points and laws for which the stable step was last looked at"))
+		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, full mass or not, number of points and laws for which the stable step was last looked at"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
 		,
 		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
@@ -81,6 +84,7 @@ private:
 	void                         checkPoints(mpm::Analysis kind) const;
 	void                         checkGimp() const;
 	void                         checkEngineOrder();
+	void                         planFilter(mpm::StepControl& control);
 	bool                         checkClocks() const;
 	bool                         stiffnessChanged(const mpm::StepControl& control);
 	void                         checkStep(const mpm::StepControl& control, bool stepper);

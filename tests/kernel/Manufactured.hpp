@@ -52,7 +52,7 @@ struct Manufactured {
 	double    periods       = 1;
 	double    courant       = .2;
 	double    flip          = 1;
-	bool      largeStrain = true, meanDilatation = false;
+	bool      largeStrain = true, meanDilatation = false, fullMass = false;
 	int       every = 1; // steps between two looks at the error
 
 	double error(int cells) const
@@ -80,7 +80,7 @@ struct Manufactured {
 		const Hooke  hooke = s.laws[0].elastic;
 		const double M     = analysis == Analysis::uniaxial ? young : analysis == Analysis::planeStress ? hooke.plane : hooke.lame + 2 * hooke.shear;
 		s.control.dt = courant * h / c, s.control.thinning = thinning, s.control.scheme = scheme, s.control.flip = flip,
-		s.control.largeStrain = largeStrain, s.control.meanDilatation = meanDilatation;
+		s.control.largeStrain = largeStrain, s.control.meanDilatation = meanDilatation, s.control.fullMass = fullMass;
 		s.start(analysis, shape, h, true);
 
 		double    greatest = 0;

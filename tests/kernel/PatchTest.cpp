@@ -116,10 +116,10 @@ TEST(PatchTest, StretchBetweenMovingWalls)
 {
 	for (Analysis analysis : allAnalyses)
 		for (ShapeKind shape : { ShapeKind::linear, ShapeKind::quadratic, ShapeKind::cubic })
-			for (Scheme scheme : allSchemes) {
-				SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(scheme));
+			for (Method method : allMethods) {
+				SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(method));
 				StepControl control;
-				control.scheme  = scheme;
+				method.set(control);
 				const int steps = analysis == Analysis::solid ? 20 : 100;
 				Stretch   stretch(analysis, shape, control, { Scene::elastic(1e5, .3, 1000) });
 				stretch.scene.runWithWalls(steps);
@@ -154,9 +154,9 @@ from row to row, and no force comes of it along the rows. Only the first axis is
 TEST(PatchTest, MaterialsSideBySide)
 {
 	Law hysteretic = Scene::boucWen(3e4, 0, 400, 600, 2, .1);
-	for (Scheme scheme : allSchemes) {
+	for (Method method : allMethods) {
 		StepControl control;
-		control.scheme = scheme;
+		method.set(control);
 		Stretch stretch(Analysis::uniaxial, ShapeKind::cubic, control, { hysteretic });
 		stretch.scene.runWithWalls(60);
 		expectUniform(stretch, Analysis::uniaxial, 60);

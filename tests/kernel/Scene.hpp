@@ -10,9 +10,23 @@ namespace yade::mpm {
 constexpr std::array<ShapeKind, 4> allShapes { ShapeKind::linear, ShapeKind::gimp, ShapeKind::quadratic, ShapeKind::cubic };
 constexpr std::array<Scheme, 3>    allSchemes { Scheme::usf, Scheme::usl, Scheme::musl };
 constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid }; // Cartesian ones
-inline const char*                 name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
-inline const char*                 name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
+struct Method {                                                                                                                       // of making a step
+	Scheme scheme;
+	bool   fullMass;
+
+	constexpr Method(Scheme s, bool full = false)
+	    : scheme(s)
+	    , fullMass(full)
+	{
+	}
+	void set(StepControl& control) const { control.scheme = scheme, control.fullMass = fullMass; }
+};
+constexpr std::array<Method, 4> allMethods { Scheme::usf, Scheme::usl, Scheme::musl, Method { Scheme::musl, true } };
+inline const char*              name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
+inline const char*              name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
 inline const char* name(Analysis a) { return std::array<const char*, 5> { "uniaxial", "plane stress", "plane strain", "axisymmetric", "3D" }[std::size_t(a)]; }
+
+inline std::string name(Method m) { return std::string(name(m.scheme)) + (m.fullMass ? ", full mass" : ""); }
 
 /* A scene of the kernel alone: what the engine does in YADE, for tests. */
 struct Scene {

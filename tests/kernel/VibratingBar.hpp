@@ -13,7 +13,7 @@ struct Bar {
 	double velocityError = 0, energyRatio = 0;
 };
 
-inline Bar vibrate(ShapeKind shape, int cells, Scheme scheme, double v0, double flip = 1, Cost* cost = nullptr)
+inline Bar vibrate(ShapeKind shape, int cells, Method method, double v0, double flip = 1, Cost* cost = nullptr)
 {
 	const double L = 25, young = 100, c = 10, omega = pi * c / (2 * L), h = L / cells;
 	Scene        s;
@@ -21,7 +21,8 @@ inline Bar vibrate(ShapeKind shape, int cells, Scheme scheme, double v0, double 
 	s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
 	s.addBox(1, { 0, 0, 0 }, { L, 0, 0 }, h / 2);
 	s.setVelocity([&](auto x) { return std::array<double, 3> { v0 * std::sin(pi * x[0] / (2 * L)), 0, 0 }; });
-	s.control.dt = .1 * h / c, s.control.scheme = scheme, s.control.flip = flip;
+	s.control.dt = .1 * h / c, s.control.flip = flip;
+	method.set(s.control);
 	s.start(Analysis::uniaxial, shape, h);
 
 	auto energy = [&] {

@@ -121,14 +121,14 @@ TEST(WallTest, BalanceOfMomentumInEveryStep)
 {
 	for (Analysis analysis : { Analysis::uniaxial, Analysis::planeStress, Analysis::solid })
 		for (ShapeKind shape : allShapes)
-			for (Scheme scheme : allSchemes)
+			for (Method method : allMethods)
 				for (const WallCase& c : wallCases(dimension(analysis))) {
-					if (analysis == Analysis::solid && (shape == ShapeKind::gimp || scheme == Scheme::usl)) continue; // time
+					if (analysis == Analysis::solid && (shape == ShapeKind::gimp || method.scheme == Scheme::usl)) continue; // time
 					std::string walls;
 					for (const Wall& w : c.walls)
 						walls += " axis " + std::to_string(w.axis) + " side " + std::to_string(w.side) + " kind "
 							 + std::to_string(int(w.kind)) + ';';
-					SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(scheme) + ' ' + c.name + walls);
+					SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(method) + ' ' + c.name + walls);
 					const int dim = dimension(analysis);
 					Scene     s;
 					s.laws  = { Scene::elastic(1e5, .3, 1000) };
@@ -139,7 +139,7 @@ TEST(WallTest, BalanceOfMomentumInEveryStep)
 					s.setVelocity([&](auto) {
 						return std::array<double, 3> { uniform(random), dim > 1 ? uniform(random) : 0, dim > 2 ? uniform(random) : 0 };
 					});
-					s.control.dt = .1 * .25 / 12, s.control.scheme = scheme;
+					s.control.dt = .1 * .25 / 12, method.set(s.control);
 					for (int d = 0; d < dim; ++d)
 						s.control.gravity[std::size_t(d)] = c.walls[0].side * (-10 + d);
 					s.start(analysis, shape, .25);

@@ -115,6 +115,10 @@ for value, text in (0, '0'), (-1, '-1'), (nan, 'nan'), (inf, 'inf'):
 	refused('cellSize %s' % text, 'MpmEngine.cellSize = ' + text, 'edge of a grid cell > 0 [m]', cellSize=value, fit=good(cellSize=.5))
 for value in -.1, 1.1, nan:
 	refused('flip %r' % value, 'MpmEngine.flip = %r' % value, '[0, 1]', flip=value, fit=good(flip=1))
+for value in -1., nan:
+	refused('filterTime %r' % value, 'MpmEngine.filterTime = ', '0 for no filter', filterTime=value, fit=good(filterTime=0))
+for scheme in 'USF', 'USL':
+	refused('full mass with ' + scheme, 'MpmEngine.fullMass = 1', "scheme = 'MUSL'", scheme=scheme, fullMass=True, fit=good(fullMass=False))
 for value in (0, -1, nan):
 	refused('largestGap %r' % value, 'MpmEngine.largestGap = ', 'inf to have none', largestGap=value, fit=good(largestGap=2))
 for value in -.1, 1., nan:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene that is saved half-way, loaded in a new process and continued ends as if it had never been interrupted.
 
-A hysteretic cantilever, loaded beyond first yield, swinging, with a moving wall, damping and points with and without bodies:
+A hysteretic cantilever, loaded beyond first yield, swinging, with a moving wall, damping, the full mass, the filter and points with and without bodies:
 every attribute and every array after 700 steps, the last 300 of them in another process. YADE writes floating-point numbers to 17 digits,
 which is exact, so the comparison is bit for bit, for XML and binary files, compressed or not.
 
@@ -41,7 +41,7 @@ if len(sys.argv) > 1:
 	finish()
 
 steel = BoucWenMat(label='steel', young=210e9, poisson=.3, density=7850, yieldStress=240e6, tangentRatio=.05, n=7, beta=.4, gamma=.6, tolerance=2e-5)
-beam, grid = block(region=((0, 0), (1, .1)), spacing=1/40., thickness=.05, material=steel, courant=.6, cellSize=1/20., damping=.02, flip=.999, gravity=(0, -9.81, 0),
+beam, grid = block(region=((0, 0), (1, .1)), spacing=1/40., thickness=.05, material=steel, courant=.6, cellSize=1/20., damping=.02, flip=.999, fullMass=True, filterTime=2e-4, gravity=(0, -9.81, 0),
 	walls=[MpmWall(normal=(1, 0, 0), kind='fixed'), MpmWall(normal=(0, 1, 0), origin=(0, -.5, 0), velocity=(0, .1, 0), kind='friction', friction=.3)], label='grid')
 tip = [i for i in beam if O.bodies[i].state.pos[0] > 1 - 1/40.]
 engines = O.engines

@@ -10,7 +10,8 @@ namespace yade::mpm {
   sum_p m_p dv_p . (v_p + dv_p/2) = sum_i m_i dv_i . u_i,   m_i u_i = m_i v_i + sum_p N_ip m_p dv_p / 2
 
 exactly, with dv_p the change that a point takes: of a prescribed component it takes none, and PIC adds to it; either is a
-force on the point, whose work is that of this change at the point's mean velocity. m_i a_i is the sum of internal, external, damping and wall forces: each does
+force on the point, whose work is that of this change at the point's mean velocity. With the full mass a_i is (2 - Q) f_i/m_i, and since Q is
+self-adjoint the forces do work as if u_i were (2 - Q) u_i (FullMass.hpp). m_i a_i is the sum of internal, external, damping and wall forces: each does
 the work f_i . u_i dt. Masses and forces are those of the nodes before folding, velocities those that unfolding has written; walls at rest then do no work. The
 internal forces' work is not used: it is set against V_p sigma_p : d eps_p at the points, and what is left over between the two is the error of the time
 integration, which the sum of all energies shows. */
@@ -87,37 +88,46 @@ template <class S, class Shape> void MpmSolver<S, Shape>::keepSums()
 	});
 }
 
-/* Work of the step's forces, before the points take the new velocities. */
+/* Velocities at the start of the step, and the change of those of the nodes. */
+template <class S, class Shape> void MpmSolver<S, Shape>::keepMotion()
+{
+	Tracking& T = m_tracking;
+	T.change    = m_force;
+	T.start     = m_momentum;
+	for (int d = 0; d < dim; ++d)
+		for (std::size_t i = 0; i < m_mass.size(); ++i)
+			T.start[d][i] -= m_force[d][i];
+	T.velocity.assign(m_points.velocity.begin(), m_points.velocity.begin() + dim);
+	m_band.unfold(m_walls, T.damping, false);
+}
+
+/* Work of the step's forces, when the points have taken the new velocities. */
 template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 {
-	const double dt = m_control.dt, flip = m_control.flip;
-	m_band.unfold(m_walls, m_tracking.damping, false);
-	NodeVector<dim> half = m_force;
-	clear(half);
+	Tracking&       T  = m_tracking;
+	const double    dt = m_control.dt;
+	NodeVector<dim> dv = T.change, u = m_force, trip;
+	const bool      full = correctsMass(m_control);
+	if (full) correct(dv, trip, false);
+	clear(u);
 	std::vector<Energies> halfWork(m_grid.tiles().size());
 	forEachTile([&](std::size_t t) { // (m Q dv)_i / 2 of the changes that the points take, and what prescribed motion and PIC make of the others
 		const auto& tile = m_grid.tiles()[t];
-		Patch       v[dim], dv[dim], sum[dim] {};
+		Patch       change[dim], sum[dim] {};
 		for (int d = 0; d < dim; ++d)
-			read(tile, m_momentum[d], v[d]), read(tile, m_force[d], dv[d]);
+			read(tile, dv[d], change[d]);
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
 			const Weights w = weights(tile, p);
 			const double  m = m_points.mass[p];
-			double        vp[dim] {}, dvp[dim] {};
-			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
-				for (int d = 0; d < dim; ++d)
-					vp[d] += Nip * v[d][i], dvp[d] += Nip * dv[d][i];
-			});
-			double taken[dim]; // change of velocity
+			double        taken[dim]; // change of velocity
 			for (int d = 0; d < dim; ++d) {
-				const double old = m_points.velocity[d][p];
+				const double old = T.velocity[d][p], dvp = gather(w, change[d]);
 				if (!m_points.fixed.empty() && m_points.fixed[p] >> d & 1) {
 					taken[d] = 0;
-					halfWork[t].walls += .5 * m * dvp[d] * old;
+					halfWork[t].walls += .5 * m * dvp * old;
 				} else {
-					const double pic = flip == 1 ? 0 : (1 - flip) * (vp[d] - old - dvp[d]);
-					taken[d]         = dvp[d] + pic;
-					halfWork[t].damping -= .5 * m * pic * (old + .5 * taken[d]);
+					taken[d] = m_control.flip == 1 ? dvp : m_points.velocity[d][p] - old;
+					halfWork[t].damping -= .5 * m * (taken[d] - dvp) * (old + .5 * taken[d]);
 				}
 			}
 			forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
@@ -126,26 +136,29 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 			});
 		}
 		for (int d = 0; d < dim; ++d)
-			add(tile, sum[d], half[d]);
+			add(tile, sum[d], u[d]);
 	});
-	m_band.foldMomentumAtRest(half);
-	divideByMass(half);
-	m_band.unfold(m_walls, half, false);
+	fromMomentum(u, false);
+	for (int d = 0; d < dim; ++d)
+		for (std::size_t i = 0; i < m_mass.size(); ++i)
+			u[d][i] += T.start[d][i];
+	if (full) correct(u, trip, true);
 
 	collectTiles();
 	Energies     work;
 	const double least = leastMass();
 	for (int d = 0; d < dim; ++d)
 		for (std::size_t i = 0; i < m_mass.size(); ++i) {
-			const double m = m_tracking.mass[d][i];
+			const double m = T.mass[d][i];
 			if (!(m > least)) continue;
-			const double u = .5 * (m_momentum[d][i] - m_force[d][i] + half[d][i]), braking = m * m_tracking.damping[d][i] * dt;
-			work.external -= m_tracking.external[d][i] * dt * u;
-			work.damping += braking * u;
-			work.walls -= (m * m_force[d][i] + braking - m_tracking.force[d][i] * dt) * u;
+			const double half = .5 * u[d][i], braking = m * T.damping[d][i] * dt;
+			work.external -= T.external[d][i] * dt * half;
+			work.damping += braking * half;
+			work.walls -= (m * T.change[d][i] + braking - T.force[d][i] * dt) * half;
 		}
 	for (const Energies& tile : halfWork)
 		work.add(tile);
+	if (full) work.walls += .5 * m_correctionWork;
 	m_points.energies.add(m_points.upcoming);
 	m_points.energies.add(work); // half of the step's work until its start ...
 	m_points.upcoming = work;    // ... and half of it after

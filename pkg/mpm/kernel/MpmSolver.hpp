@@ -62,20 +62,25 @@ public:
 		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { spreadCouples(t, m_force); });
 		if (energy) keepSums();
 		lap(control.scheme == Scheme::usf ? "points to nodes, stress" : "stress, points to nodes");
+		const bool full = correctsMass(control);
 		updateNodes();
 		const double kineticBefore = energy ? kineticEnergy() : 0;
-		if (energy) trackWork();
+		if (energy) keepMotion();
+		if (full) correctAccelerations();
 		lap("nodes");
 
 		if (control.scheme == Scheme::musl) {
 			clear(m_velocity);
-			forEachTile([&](std::size_t t) { gridToPoints<true>(t); });
-			remapVelocities();
+			forEachTile([&](std::size_t t) { gridToPoints<true>(t, control.flip); });
+			fromMomentum(m_velocity);
+			if (full) correctVelocities();
 		} else {
-			forEachTile([&](std::size_t t) { gridToPoints<false>(t); });
+			forEachTile([&](std::size_t t) { gridToPoints<false>(t, control.flip); });
 			std::swap(m_velocity, m_momentum); // the updated velocities themselves
 		}
+		if (energy) trackWork();
 		if (!m_points.touched.empty()) forEachTile([&](std::size_t t) { moveTouchedPoints(t); });
+		if (control.filter > 0) filterVelocities();
 		lap(control.scheme == Scheme::musl ? "nodes to points and back" : "nodes to points");
 		m_stressControl = control;
 		m_pending       = true;
@@ -121,7 +126,7 @@ public:
 		return nodes;
 	}
 
-	double acousticTimeStep(Scheme scheme) override;
+	double acousticTimeStep(Scheme scheme, bool fullMass) override;
 	double crossingRate() const override;
 
 private:
@@ -177,12 +182,25 @@ private:
 	[[gnu::noinline]] void    takeMeanPressure(
 		   Block block, const WeightLanes& w, const Patch& mean, const Lanes& r, Lanes (&fp)[dim], Lanes (&Vs)[dim][dim]) const;
 
+	// FullMass.hpp
+	static bool correctsMass(const StepControl& control) { return control.fullMass && control.scheme == Scheme::musl; }
+	void        spreadVelocities(const NodeVector<dim>* v, NodeVector<dim>& momentum);
+	void        spreadTileVelocities(const Tile& tile, const NodeVector<dim>* v, NodeVector<dim>& momentum) const;
+	void        subtractRoundTrip(NodeVector<dim>& v, const NodeVector<dim>& trip) const;
+	void        correct(NodeVector<dim>& v, NodeVector<dim>& trip, bool moving);
+	void        correctAccelerations();
+	void        correctVelocities();
+	void        filterVelocities();
+	double      m_correctionWork = 0; // of moving walls, by what correctAccelerations() adds to their reactions
+
 	struct StressWork;
 	struct Tracking {                              // empty unless energies are tracked
 		std::vector<Energies> tiles;           // what the passes have found, summed in the order of tiles
 		NodeVector<dim>       mass;            // of the nodes, not folded
 		NodeVector<dim>       force, external; // likewise; all forces, and the external ones
 		NodeVector<dim>       damping;         // acceleration that damping takes away
+		NodeVector<dim>       start, change;   // nodal velocities at the start of the step, and what is added to them
+		Columns               velocity;        // of the points at the start
 	};
 	Tracking m_tracking;
 
@@ -192,6 +210,7 @@ private:
 	}
 	void   startEnergies();
 	void   keepSums();
+	void   keepMotion();
 	void   trackWork();
 	void   collectTiles();
 	double kineticEnergy() const;
@@ -640,11 +659,11 @@ private:
 
 	/* Step 3: v_p += sum N_ip dt a_i (FLIP), displacement dt sum N_ip v_i   (eq. 15)
 	Step 4 (remap): (m v)_i = sum N_ip m_p v_p with the new velocities. */
-	template <bool remap> void gridToPoints(std::size_t t)
+	template <bool remap> void gridToPoints(std::size_t t, double flip)
 	{
-		run(m_instructions, [this, t] { moveTile<remap>(t); });
+		run(m_instructions, [this, t, flip] { moveTile<remap>(t, flip); });
 	}
-	template <bool remap> void moveTile(std::size_t t)
+	template <bool remap> void moveTile(std::size_t t, double flip)
 	{
 		const Tile& tile = m_grid.tiles()[t];
 		Patch       v[dim], dv[dim], mv[dim] {};
@@ -664,27 +683,31 @@ private:
 			}
 			load(m_points.mass, block, mp);
 			for (int d = 0; d < dim; ++d)
-				left |= movePoints(tile, block, d, x[d], mp, vp[d], dvp[d], mvp[d]);
-			if (!remap) return;
-			for (int l = 0; l < block.count; ++l) {
-				alignas(8 * row) double rmv[dim][row];
-#pragma omp simd
-				for (int i = 0; i < row; ++i)
-					for (int d = 0; d < dim; ++d)
-						rmv[d][i] = mvp[d][l] * w[l].N_[0][i];
-				forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
-					const int at = w[l].first + offset;
-#pragma omp simd
-					for (int i = 0; i < row; ++i)
-						for (int d = 0; d < dim; ++d)
-							mv[d][at + i] += c[0] * rmv[d][i];
-				});
-			}
+				left |= movePoints(tile, block, d, flip, x[d], mp, vp[d], dvp[d], mvp[d]);
+			if (remap) spreadMomentum(w, block, mvp, mv);
 		});
 		m_reports[t].left = left;
 		if (remap)
 			for (int d = 0; d < dim; ++d)
 				add(tile, mv[d], m_velocity[d]);
+	}
+	/* (m v)_i += N_ip m_p v_p. */
+	static void spreadMomentum(const WeightLanes& w, Block block, const Lanes (&mvp)[dim], Patch (&mv)[dim])
+	{
+		for (int l = 0; l < block.count; ++l) {
+			alignas(8 * row) double rmv[dim][row];
+#pragma omp simd
+			for (int i = 0; i < row; ++i)
+				for (int d = 0; d < dim; ++d)
+					rmv[d][i] = mvp[d][l] * w[l].N_[0][i];
+			forEachRow(w[l], [&](int offset, const std::array<double, dim>& c) {
+				const int at = w[l].first + offset;
+#pragma omp simd
+				for (int i = 0; i < row; ++i)
+					for (int d = 0; d < dim; ++d)
+						mv[d][at + i] += c[0] * rmv[d][i];
+			});
+		}
 	}
 	/* sum N_ip field_i for the point with weights w. */
 	static double gather(const Weights& w, const double* field)
@@ -739,9 +762,9 @@ private:
 			return (x[0] + x[2]) + (x[1] + x[3]);
 	}
 	/* New velocities and displacements along axis d; whether a point leaves the tile. */
-	bool movePoints(const Tile& tile, Block block, int d, const Lanes& x, const Lanes& mp, const Lanes& vp, const Lanes& dvp, Lanes& mvp)
+	bool movePoints(const Tile& tile, Block block, int d, double flip, const Lanes& x, const Lanes& mp, const Lanes& vp, const Lanes& dvp, Lanes& mvp)
 	{
-		const double dt = m_control.dt, flip = m_control.flip, origin = m_geometry.origin[d], cell = m_geometry.cell[d];
+		const double dt = m_control.dt, origin = m_geometry.origin[d], cell = m_geometry.cell[d];
 		const double lower = m_geometry.xiMin[d], upper = m_geometry.xiMax[d], corner = tile.index[d] * Grid::width;
 		Lanes        velocity, advance, r {};
 		load(m_points.velocity[d], block, velocity);
@@ -766,12 +789,15 @@ private:
 		return !inside;
 	}
 
-	/* Step 4, at the nodes: v_i = (m v)_i / m_i, walls again. */
-	void remapVelocities()
+	/* Step 4, at the nodes: v_i = (m v)_i / m_i, walls again. Of an increment (not moving), which vanishes at the walls, likewise. */
+	void fromMomentum(NodeVector<dim>& v, bool moving = true)
 	{
-		m_band.foldMomentum(m_walls, nodeMass(), m_velocity);
-		divideByMass(m_velocity);
-		m_band.unfold(m_walls, m_velocity, true);
+		if (moving)
+			m_band.foldMomentum(m_walls, nodeMass(), v);
+		else
+			m_band.foldMomentumAtRest(v);
+		divideByMass(v);
+		m_band.unfold(m_walls, v, moving);
 	}
 	/* Points in contact move with the velocities that the stress sees, and turn with the material: spin = curl v / 2. A
 	contact's force follows the points' motion; any other velocity would lose energy (doc/method.md). */
@@ -1088,5 +1114,6 @@ private:
 } // namespace yade::mpm
 
 #include "EnergyBalance.hpp"
+#include "FullMass.hpp"
 #include "MeanDilatation.hpp"
 #include "StableStep.hpp"

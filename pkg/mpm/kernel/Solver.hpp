@@ -30,6 +30,8 @@ struct StepControl {
 	bool                  largeStrain    = true;
 	bool                  thinning       = false; // plane stress: the thickness follows the strain
 	bool                  meanDilatation = false; // plane strain, axisymmetric, 3D: the points of an element change their volume as one
+	bool                  fullMass       = false; // MUSL: the inverse of the full mass matrix, approximated, in place of the lumped one's
+	double                filter         = 0;     // part that is taken, after the step, off the velocities that the grid does not see
 	int                   threads        = 1;
 	bool                  trackEnergy    = false; // keep Points::energies and Points::dissipation
 	PassClock*            clock          = nullptr;
@@ -66,11 +68,11 @@ public:
 	virtual void pointsChanged() = 0;
 	/* Largest stable step for the points as they stand, at rest [s]: from the greatest eigenvalue of the discrete operator
 	with elastic stiffness. */
-	virtual double acousticTimeStep(Scheme scheme) = 0;
+	virtual double acousticTimeStep(Scheme scheme, bool fullMass = false) = 0;
 	/* Cells that the fastest point crosses in a second. */
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
-	double criticalTimeStep(Scheme scheme) { return 1 / (1 / acousticTimeStep(scheme) + crossingRate()); }
+	double criticalTimeStep(Scheme scheme, bool fullMass = false) { return 1 / (1 / acousticTimeStep(scheme, fullMass) + crossingRate()); }
 	/* The nodes of the last step, with the velocities that it ended with. */
 	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */

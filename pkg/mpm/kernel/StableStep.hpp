@@ -11,8 +11,8 @@ namespace yade::mpm {
 
 with lumped mass M, and K of the points' elastic stiffness. MUSL and USF are stable for dt < 2/omega with omega^2 the
 greatest eigenvalue of Q A; USL, which updates stress with velocities that have not been through Q, for
-dt^2 lambda (2 - q) < 4, which sqrt(2/lambda) of A alone always satisfies. */
-template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Scheme scheme)
+dt^2 lambda (2 - q) < 4, which sqrt(2/lambda) of A alone always satisfies. With the full mass (2 - Q) Q (2 - Q) takes the place of Q. */
+template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Scheme scheme, bool fullMass)
 {
 	if (m_points.count() == 0) return std::numeric_limits<double>::infinity();
 	finish();
@@ -81,27 +81,7 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	};
 	auto smoothing = [&](const Column& x, Column& y) { // y = Q x
 		unpack(x, m_velocity);
-		clear(f);
-		forEachTile([&](std::size_t t) {
-			const auto& tile = m_grid.tiles()[t];
-			Patch       v[dim], mv[dim] {};
-			for (int d = 0; d < dim; ++d)
-				read(tile, m_velocity[d], v[d]);
-			for (std::size_t p = tile.begin; p < tile.end; ++p) {
-				const Weights w = weights(tile, p);
-				double        vp[dim] {};
-				forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
-					for (int d = 0; d < dim; ++d)
-						vp[d] += Nip * v[d][i];
-				});
-				forEachNode(w, [&](int i, double Nip, const std::array<double, dim>&) {
-					for (int d = 0; d < dim; ++d)
-						mv[d][i] += Nip * m_points.mass[p] * vp[d];
-				});
-			}
-			for (int d = 0; d < dim; ++d)
-				add(tile, mv[d], f[d]);
-		});
+		spreadVelocities(&m_velocity, f);
 		pack(f, y);
 	};
 
@@ -123,14 +103,23 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 			sum += massOf(k) * x[k] * y[k];
 		return sum;
 	};
+	Column trip(dim * nodes);
+	auto   massFactor = [&](const Column& x, Column& y) { // Q x or (2 - Q)^2 Q x
+                smoothing(x, y);
+                for (int k = 0; fullMass && k < 2; ++k) {
+			  smoothing(y, trip);
+			  for (std::size_t i = 0; i < y.size(); ++i)
+                                y[i] = 2 * y[i] - trip[i];
+                }
+	};
 	double lambda;
 	if (scheme == Scheme::usl)
 		lambda = 2 * largestEigenvalue(start, stiffness, massInner);
 	else
 		lambda = largestEigenvalue(
-			start, [&](const Column& x, Column& y) { smoothing(x, scratch), stiffness(scratch, y); },
+			start, [&](const Column& x, Column& y) { massFactor(x, scratch), stiffness(scratch, y); },
 			[&](const Column& x, const Column& y) {
-				smoothing(y, scratch);
+				massFactor(y, scratch);
 				return massInner(x, scratch);
 			});
 	return lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<double>::infinity();

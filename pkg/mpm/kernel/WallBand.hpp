@@ -61,6 +61,18 @@ public:
 		clearPlanes(force); // a wall one cell further has folded on them
 		addReactions(walls, mass, force);
 	}
+	/* Momentum that points bring to the nodes near the walls, before folding, ... */
+	void keepMomentum(const NodeVector<dim>& momentum)
+	{
+		for (ReactionNode& r : m_reaction)
+			for (int d = 0; d < dim; ++d)
+				r.momentum[d] = momentum[d][r.node];
+	}
+	/* ... and the velocities that come of it: what the walls have given to it is taken off their reactions over dt (doc/method.md). */
+	void subtractReactions(std::vector<Wall>& walls, const NodeVector<dim>& velocity, double dt) const
+	{
+		addToWalls(walls, [&](const ReactionNode& r, int d) { return (r.mass[d] * velocity[d][r.node] - r.momentum[d]) / dt; });
+	}
 	/* Folds a momentum with the masses that fold() has met. */
 	void foldMomentum(const std::vector<Wall>& walls, const NodeMass<dim>& mass, NodeVector<dim>& momentum) const
 	{
@@ -144,6 +156,7 @@ private:
 		std::array<Cover, 2 * dim> covers;
 		int                        count;
 		std::array<double, dim>    mass, force; // of the node alone, before folding
+		std::array<double, dim>    momentum;    // likewise
 	};
 	NodeVector<dim>           m_acceleration; // of the reaction nodes
 	std::vector<Band>         m_bands;
@@ -200,7 +213,7 @@ private:
 		for (auto& f : feet)
 			std::sort(f.begin(), f.end());
 		forEachNode(grid, [&](const Index& node, std::ptrdiff_t at) {
-			ReactionNode r { at, {}, 0, {}, {} };
+			ReactionNode r { at, {}, 0, {}, {}, {} };
 			for (std::size_t b = 0; b < m_bands.size() && r.count < 2 * dim; ++b) {
 				const Wall& wall = walls[m_bands[b].wall];
 				if (std::abs(depth(node, wall)) > 1) continue;
@@ -222,14 +235,18 @@ private:
 		for (Column& c : m_acceleration)
 			c.assign(m_reaction.empty() ? 0 : grid.nodeCount(), 0);
 	}
-	/* Force on a wall = force on the nodes - their mass times their acceleration. A component is taken by the wall normal to
-	it, else by a fixed wall, else by friction. */
+	/* Force on a wall = force on the nodes - their mass times their acceleration. */
 	void addReactions(std::vector<Wall>& walls, const NodeMass<dim>& mass, const NodeVector<dim>& force)
 	{
 		for (const ReactionNode& r : m_reaction)
 			for (int d = 0; d < dim; ++d)
 				m_acceleration[d][r.node] = (*mass[d])[r.node] > 0 ? force[d][r.node] / (*mass[d])[r.node] : 0;
 		unfold(walls, m_acceleration, false);
+		addToWalls(walls, [this](const ReactionNode& r, int d) { return r.force[d] - r.mass[d] * m_acceleration[d][r.node]; });
+	}
+	/* A component of force(node, d) is taken by the wall normal to it, else by a fixed wall, else by friction. */
+	template <class Force> void addToWalls(std::vector<Wall>& walls, Force&& force) const
+	{
 		for (const ReactionNode& r : m_reaction) {
 			std::array<int, dim> taker, rank {};
 			taker.fill(-1);
@@ -244,7 +261,7 @@ private:
 				}
 			}
 			for (int d = 0; d < dim; ++d)
-				if (taker[d] >= 0) walls[taker[d]].force[d] += r.force[d] - r.mass[d] * m_acceleration[d][r.node];
+				if (taker[d] >= 0) walls[taker[d]].force[d] += force(r, d);
 		}
 	}
 
