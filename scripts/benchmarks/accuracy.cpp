@@ -18,20 +18,30 @@ struct Choice {
 	const char* variant       = "";
 };
 
-/* error(cells, cost) on one grid after another; a run that breaks down has no error. */
-template <class Error> void refine(const char* problem, const Choice& k, int dim, std::initializer_list<int> cells, Error&& error)
+std::string only; // problems whose names begin with it
+
+/* errors(cells, cost) on one grid after another, one of each problem; a run that breaks down has none. */
+template <std::size_t N, class Errors>
+void refine(const std::array<const char*, N>& problems, const Choice& k, int dim, std::initializer_list<int> cells, Errors&& errors)
 {
+	if (std::string(problems[0]).rfind(only, 0) != 0) return;
 	for (int n : cells) {
-		Cost   cost;
-		double e = HUGE_VAL;
+		Cost                  cost;
+		std::array<double, N> e;
+		e.fill(HUGE_VAL);
 		try {
-			e = error(n, cost);
+			e = errors(n, cost);
 		} catch (const StepFailure&) {
 		}
-		std::printf("%s,%s,%s,%d,%s,%d,%.6g,%.0f,%.4g\n", problem, name(k.shape), name(k.scheme), ipow(k.pointsPerCell, dim), k.variant, n, e,
-			cost.pointSteps, cost.seconds);
+		for (std::size_t i = 0; i < N; ++i)
+			std::printf("%s,%s,%s,%d,%s,%d,%.6g,%.0f,%.4g\n", problems[i], name(k.shape), name(k.scheme), ipow(k.pointsPerCell, dim), k.variant, n,
+				e[i], cost.pointSteps, cost.seconds);
 		std::fflush(stdout);
 	}
+}
+template <class Error> void refine(const char* problem, const Choice& k, int dim, std::initializer_list<int> cells, Error&& error)
+{
+	refine(std::array { problem }, k, dim, cells, [&](int n, Cost& cost) { return std::array { error(n, cost) }; });
 }
 
 /* A shape function, a scheme, a density of points changed at a time from cubic MUSL with 2 points a cell and axis. */
@@ -81,50 +91,116 @@ template <class Shape> double quadrature(double spacing, double r)
 	return worst;
 }
 
-/* V6: displacement (x, y) of the material point (3.9, 0.5), every 0.01 s, computed with finite elements (tests/data). */
-std::vector<std::array<double, 2>> readReference()
-{
-	std::ifstream file(MPM_TEST_DATA "/soft_cantilever_fe.csv");
-	std::string   line;
-	std::getline(file, line);
-	std::vector<std::array<double, 2>> rows;
-	double                             t, x, y;
-	char                               comma;
-	while (file >> t >> comma >> x >> comma >> y)
-		rows.push_back({ x, y });
-	if (rows.size() != 111) throw std::runtime_error("soft_cantilever_fe.csv: 111 rows wanted, " + std::to_string(rows.size()) + " found");
-	return rows;
-}
-/* Greatest distance from it in 1.1 s [m]; cells across the height of 1 m. A beam that comes apart has none. */
-double softCantilever(const Choice& k, int cells, Cost& cost)
-{
-	static const auto reference = readReference();
-	const double      h = 1. / cells, spacing = h / k.pointsPerCell;
-	const int         nx = int(std::lround(4 / spacing));
-	Scene             s;
-	s.laws  = { Scene::elastic(1e6, .3, 1050) };
-	s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
-	s.addBox(2, { 0, 0, 0 }, { 4, 1, 0 }, spacing);
-	s.start(Analysis::planeStrain, k.shape, h);
-	s.control.dt = .005 / cells, s.control.gravity = { 0, -10, 0 }, s.control.scheme = k.scheme;
-	const double at[2] { 3.9 / spacing - .5, .5 / spacing - .5 };
-	double       worst = 0;
-	Continuity   continuity;
-	for (std::size_t row = 1; row < reference.size(); ++row) {
-		for (int step = 0; step < 2 * cells; ++step)
-			cost.step(s, step == 2 * cells - 1);
-		continuity.check(s.points, s.laws, s.walls, h, 2 * h, s.control.time);
-		const auto byId = s.byId();
-		double     off[2] { -reference[row][0] - 3.9, -reference[row][1] - .5 };
-		for (int corner = 0; corner < 4; ++corner) {
-			const int    i = int(at[0]) + corner % 2, j = int(at[1]) + corner / 2;
-			const double weight = (1 - std::abs(at[0] - i)) * (1 - std::abs(at[1] - j));
-			for (std::size_t d = 0; d < 2; ++d)
-				off[d] += weight * s.points.position[d][byId[std::size_t(j * nx + i)]];
-		}
-		worst = std::max(worst, std::hypot(off[0], off[1]));
+/* V6: a gravity [m/s2], and the displacement (x, y) of the material point (3.9, 0.5) under it, every 0.01 s, computed with finite elements
+(tests/data). */
+struct SoftCantilever {
+	const char*                        problem;
+	double                             gravity;
+	std::vector<std::array<double, 2>> reference;
+
+	SoftCantilever(const char* name, double g, const char* data, std::size_t rows)
+	    : problem(name)
+	    , gravity(g)
+	{
+		std::ifstream file(std::string(MPM_TEST_DATA "/") + data);
+		std::string   line;
+		std::getline(file, line);
+		double t, x, y;
+		char   comma;
+		while (file >> t >> comma >> x >> comma >> y)
+			reference.push_back({ x, y });
+		if (reference.size() != rows)
+			throw std::runtime_error(
+				std::string(data) + ": " + std::to_string(rows) + " rows wanted, " + std::to_string(reference.size()) + " found");
 	}
-	return worst;
+	/* Greatest distance from it [m]; cells across the height of 1 m. A beam that comes apart has none. */
+	double error(const Choice& k, int cells, Cost& cost) const
+	{
+		const double h = 1. / cells, spacing = h / k.pointsPerCell;
+		const int    nx = int(std::lround(4 / spacing));
+		Scene        s;
+		s.laws  = { Scene::elastic(1e6, .3, 1050) };
+		s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+		s.addBox(2, { 0, 0, 0 }, { 4, 1, 0 }, spacing);
+		s.start(Analysis::planeStrain, k.shape, h);
+		s.control.dt = .005 / cells, s.control.gravity = { 0, -gravity, 0 }, s.control.scheme = k.scheme;
+		const double at[2] { 3.9 / spacing - .5, .5 / spacing - .5 };
+		double       worst = 0;
+		Continuity   continuity;
+		for (std::size_t row = 1; row < reference.size(); ++row) {
+			for (int step = 0; step < 2 * cells; ++step)
+				cost.step(s, step == 2 * cells - 1);
+			continuity.check(s.points, s.laws, s.walls, h, 2 * h, s.control.time);
+			const auto byId = s.byId();
+			double     off[2] { -reference[row][0] - 3.9, -reference[row][1] - .5 };
+			for (int corner = 0; corner < 4; ++corner) {
+				const int    i = int(at[0]) + corner % 2, j = int(at[1]) + corner / 2;
+				const double weight = (1 - std::abs(at[0] - i)) * (1 - std::abs(at[1] - j));
+				for (std::size_t d = 0; d < 2; ++d)
+					off[d] += weight * s.points.position[d][byId[std::size_t(j * nx + i)]];
+			}
+			worst = std::max(worst, std::hypot(off[0], off[1]));
+		}
+		return worst;
+	}
+};
+
+/* Displacement of the end [m] at a load [N], on the way up (branch 1) or down (2), computed with finite elements (tests/data). */
+double finiteElements(int branch, double load)
+{
+	std::ifstream file(MPM_TEST_DATA "/cantilever/static_perfectly_plastic.csv");
+	std::string   line;
+	while (std::getline(file, line)) {
+		int    b;
+		double force, displacement;
+		if (std::sscanf(line.c_str(), "%d,%lf,%lf", &b, &force, &displacement) == 3 && b == branch && force == load) return displacement;
+	}
+	throw std::runtime_error("static_perfectly_plastic.csv has no load of " + std::to_string(load) + " N");
+}
+/* Example 4.1 (doc/verification/cantilever-static.md), cells across the depth of 0.1 m. The load is that of the end face: 1.5 of it on the last
+column of points, -0.5 on the one before, and so is the displacement. Its errors: elastic, of the deflection under 10 kN; else, perfectly plastic,
+of that under 28 kN, and of what is left of it when they are taken off. */
+std::array<double, 2> staticCantilever(const Choice& k, int cells, bool plastic, Cost& cost)
+{
+	const double depth = .1, thickness = .05, spacing = depth / cells / k.pointsPerCell, greatest = plastic ? 28e3 : 10e3;
+	const double up = plastic ? .2 : .08, down = plastic ? .1 : 0, rest = plastic ? .03 : .04; // [s]; a period takes 0.012 s
+	const int    rows = cells * k.pointsPerCell, columns = int(std::lround(1 / spacing));
+	Scene        s;
+	s.laws = { Scene::elastic(210e9, .3, 7850) };
+	if (plastic) s.laws = { Scene::boucWen(210e9, .3, 7850, 240e6, 100, 0) };
+	s.laws[0].boucWen.reloading = 2;
+	s.walls                     = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+	s.addBox(2, { 0, -depth / 2, 0 }, { 1, depth / 2, 0 }, spacing);
+	const Column start = s.points.position[1];
+	Column       weight(s.points.count(), 0);
+	for (int row = 1; row <= rows; ++row)
+		weight[std::size_t(row * columns - 1)] = 1.5 / rows, weight[std::size_t(row * columns - 2)] = -.5 / rows;
+	s.start(Analysis::planeStress, k.shape, depth / cells, true);
+	s.control.scheme = k.scheme, s.control.damping = .005;
+	s.control.dt = .7 * s.solver->criticalTimeStep(k.scheme);
+	auto ramp    = [](double x) { return x * x * x * (10 + x * (-15 + 6 * x)); };
+	auto advance = [&](double until, auto&& load) {
+		double sum = 0;
+		int    n   = 0;
+		for (; s.control.time < until; ++n) {
+			const double now = load(s.control.time) / thickness;
+			double       tip = 0;
+			for (std::size_t p = 0; p < s.points.count(); ++p) {
+				const auto id        = std::size_t(s.points.id[p]);
+				s.points.force[1][p] = -now * weight[id];
+				tip -= weight[id] * (s.points.position[1][p] - start[id]);
+			}
+			cost.step(s, false);
+			sum += tip;
+		}
+		return sum / n; // the mean deflection
+	};
+	advance(up, [&](double t) { return greatest * ramp(t / up); });
+	const double bent = advance(up + rest, [&](double) { return greatest; }) / finiteElements(1, greatest) - 1;
+	if (!plastic) return { std::abs(bent), 0 };
+	advance(up + rest + down, [&](double t) { return greatest * ramp(1 - (t - up - rest) / down); });
+	const double left = advance(up + rest + down + rest, [](double) { return 0; }) / finiteElements(2, 0) - 1;
+	return { std::abs(bent), std::abs(left) };
 }
 
 /* Ten million steps of a body that breathes in free space: its energy (mean over 500 steps, that of half steps otherwise) over that at the
@@ -185,7 +261,8 @@ void drift(const char* what, Analysis analysis, Method method, int cells, double
 
 int main(int count, char** arguments)
 {
-	if (count > 1 && arguments[1] == std::string("drift")) {
+	const std::string part = count > 1 ? arguments[1] : "errors";
+	if (part == "drift") {
 		std::printf("body,scheme,points,steps,energy,centre_cells\n");
 		for (Scheme scheme : allSchemes)
 			drift("bar", Analysis::uniaxial, scheme, 8);
@@ -198,6 +275,7 @@ int main(int count, char** arguments)
 		drift("square, full mass, filterTime 10 periods", Analysis::planeStrain, full, 4, .01, .2, 10);
 		return 0;
 	}
+	if (count > 2) only = arguments[2];
 	std::printf("problem,shape,scheme,points_a_cell,variant,cells,error,point_steps,cpu_seconds\n");
 	for (double spacing : { .25, .3, 1. / 3, .45, .5, .55, .6, .7, .8, 1., 1.2, 1.5, 2. }) {
 		const double values[] { quadrature<LinearShape>(spacing, 0), quadrature<GimpShape>(spacing, .25), quadrature<QuadraticShape>(spacing, 0),
@@ -219,8 +297,14 @@ int main(int count, char** arguments)
 				false, { 4, 8, 16, 32 });
 		}
 	}
-	for (const Choice& k : choices(4))
-		if (k.pointsPerCell > 1) refine("V6", k, 2, { 2, 4, 8 }, [&](int n, Cost& cost) { return softCantilever(k, n, cost); });
+	const SoftCantilever toItsLowest("V6", 10, "soft_cantilever_fe.csv", 111), published("V6 published", 10, "soft_cantilever_fe_3s.csv", 301),
+		gentle("V6 three seconds", 6, "soft_cantilever_fe_6.csv", 301);
+	for (const Choice& k : choices(4)) {
+		if (k.pointsPerCell == 1) continue;
+		for (const SoftCantilever* beam : { &toItsLowest, &published })
+			refine(beam->problem, k, 2, { 2, 4, 8 }, [&](int n, Cost& cost) { return beam->error(k, n, cost); });
+		refine(gentle.problem, k, 2, { 2, 4, 8, 12 }, [&](int n, Cost& cost) { return gentle.error(k, n, cost); });
+	}
 	for (const Choice& k : choices(3))
 		hystereticBar(k, 1e-4), hystereticBar(k, 1e-4, .02);
 	hystereticBar({ ShapeKind::cubic, Scheme::musl, 2, "tolerance 1e-2" }, 1e-2);
@@ -230,9 +314,16 @@ int main(int count, char** arguments)
 		for (ShapeKind shape : allShapes)
 			for (Scheme scheme : allSchemes) {
 				const Choice k { shape, scheme, 2, "" };
-				refine(v0 < .5 ? "V3 velocity" : "V3 large velocity", k, 1, { 16, 32, 64 },
-					[&](int n, Cost& cost) { return vibrate(shape, n, scheme, v0, 1, &cost).velocityError; });
-				refine(v0 < .5 ? "V3 energy" : "V3 large energy", k, 1, { 16, 32, 64 },
-					[&](int n, Cost& cost) { return std::abs(vibrate(shape, n, scheme, v0, 1, &cost).energyRatio - 1); });
+				refine(std::array { v0 < .5 ? "V3 velocity" : "V3 large velocity", v0 < .5 ? "V3 energy" : "V3 large energy" }, k, 1,
+					{ 16, 32, 64 }, [&](int n, Cost& cost) {
+						const Bar bar = vibrate(shape, n, scheme, v0, 1, &cost);
+						return std::array { bar.velocityError, std::abs(bar.energyRatio - 1) };
+					});
 			}
+	for (const Choice& k : choices(3)) {
+		refine("static elastic", k, 2, { 2, 4, 6 }, [&](int n, Cost& cost) { return staticCantilever(k, n, false, cost)[0]; });
+		if (k.scheme == Scheme::musl && k.pointsPerCell > 1)
+			refine(std::array { "static plastic", "static residual" }, k, 2, { 2, 4, 6 },
+				[&](int n, Cost& cost) { return staticCantilever(k, n, true, cost); });
+	}
 }
