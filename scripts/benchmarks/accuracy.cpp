@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Error and cost of the cases of doc/accuracy, as CSV: scripts/benchmarks/accuracy runs it and draws.
+#include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
 #include "kernel/Continuity.hpp"
 #include "kernel/ShapeFunction.hpp"
@@ -257,6 +258,22 @@ void drift(const char* what, Analysis analysis, Method method, int cells, double
 	}
 }
 
+/* The stable step as computed and as found in runs, in cells over the wave speed: in the bulk, and with a free end at every place in a cell. */
+void stepLimits(const char* body, Analysis analysis)
+{
+	for (ShapeKind shape : allShapes)
+		for (Method method : allMethods) {
+			const StepLimit limit { analysis, shape, method };
+			auto            row = [&](const char* where, double place) {
+                                const Scene s = limit.body(where == std::string("edge"), place);
+                                std::printf("%s,%s,\"%s\",%s,%.4f,%.4g,%.4g\n", body, name(shape), name(method).c_str(), where, place, limit.computed(s), limit.actual(s));
+			};
+			row("bulk", 0);
+			for (double place : StepLimit::places())
+				row("edge", place);
+		}
+}
+
 } // namespace
 
 int main(int count, char** arguments)
@@ -273,6 +290,11 @@ int main(int count, char** arguments)
 		drift("square, filterTime 10 periods", Analysis::planeStrain, lumped, 4, .01, .2, 10);
 		drift("square, full mass", Analysis::planeStrain, full, 4);
 		drift("square, full mass, filterTime 10 periods", Analysis::planeStrain, full, 4, .01, .2, 10);
+		return 0;
+	}
+	if (part == "steps") {
+		std::printf("body,shape,scheme,where,place,computed,actual\n");
+		stepLimits("bar", Analysis::uniaxial), stepLimits("plate", Analysis::planeStrain);
 		return 0;
 	}
 	if (count > 2) only = arguments[2];

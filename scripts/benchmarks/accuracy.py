@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures and tables of doc/accuracy from its accuracy.csv and drift.csv.  python3 scripts/benchmarks/accuracy.py doc/accuracy [errors]
+"""Figures and tables of doc/accuracy from its accuracy.csv, steps.csv and drift.csv.  python3 scripts/benchmarks/accuracy.py doc/accuracy [errors]
 
 Cost is points times steps times the unit cost of a choice: CPU time a point and step, the least over the grids of a case, which is that of
 the fine ones. It is steadier than the time of one run."""
@@ -101,6 +101,19 @@ def machine():
 	return '%s, one thread, %s' % (model.group(1) if model else 'unknown processor', datetime.date.today().isoformat())
 
 
+def limits():
+	"""Rows of the table of stable steps: bulk, and the worst place of a free end."""
+	groups = {}
+	with open(os.path.join(FOLDER, 'steps.csv')) as f:
+		for row in csv.DictReader(f):
+			groups.setdefault((row['body'], row['shape'], row['scheme']), {}).setdefault(row['where'], []).append((float(row['computed']), float(row['actual'])))
+	for key, found in groups.items():
+		(inside, failed), = found['bulk']
+		parts = [actual/computed for computed, actual in found['edge']]
+		yield key + ('%.3f' % inside, '%.3f' % (failed/inside), '%.3f' % min(c for c, _ in found['edge']), '%.3f' % min(a for _, a in found['edge']),
+			'%.3f to %.3f' % (min(parts), max(parts)))
+
+
 def put(text, mark, content):
 	return re.sub('(<!-- %s -->\n).*?(<!-- end of %s -->)' % (mark, mark), lambda m: m.group(1) + content + '\n' + m.group(2), text, flags=re.S)
 
@@ -123,6 +136,8 @@ if 'errors' in sys.argv: text = put(text, 'machine', machine())
 text = put(text, 'cheapest', table(('case', 'wanted error', 'cheapest [core-s]', 'second [core-s]', 'cubic MUSL, 2 points an axis [core-s]'), cheapest))
 text = put(text, 'orders', table(('case', 'choice', 'cells: error', 'last order', 'ns a point and step'), orders))
 text = put(text, 'quadrature', table(('spacing/h',) + SHAPES, [(s,) + tuple('%.2g' % v[k] if v[k] > 1e-12 else '0' for k in SHAPES) for s, v in quadrature.items()]))
+text = put(text, 'steps', table(('body', 'shape', 'scheme', 'bulk: computed [h/c]', 'failure over it', 'edge: least computed [h/c]', 'least that fails [h/c]',
+	'failure over computed, all places'), limits()))
 with open(os.path.join(FOLDER, 'drift.csv')) as f: drift = list(csv.reader(f))[1:]
 text = put(text, 'drift', table(('body', 'scheme', 'points', 'steps', 'energy over that at the start', 'centre of mass has moved by [cells]'), drift))
 with open(page, 'w') as f: f.write(text)

@@ -10,9 +10,8 @@ safe sqrt(2/lambda) = 0.7071 h/c. The step that no point crosses a cell in is jo
 Runs: random velocities of 1e-7 c; at 0.9 of the step the energy stays within five times what there was at the start
 (1/(1 - 0.9^2) = 5.3 is what it may reach, see HardCasesTest), at 1.2 of it it grows without bound. Measured: MUSL and USF turn unstable within 1 to 1.05 of the
 step, USL within 1.05 to 1.2. No linear lattice here has points on nodes: those see another operator once they move at all. */
-#include "Scene.hpp"
+#include "StepLimit.hpp"
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace yade::mpm;
 
@@ -72,30 +71,6 @@ TEST(StableStepTest, ScalesWithTheWaveSpeedAndShortensWithVelocity)
 	}
 }
 
-/* Growth of the kinetic energy from small random velocities, or infinity. */
-double growth(const Scene& original, Analysis analysis, ShapeKind shape, double h, Method method, double dt, int steps)
-{
-	Scene                                  s = original.copy(analysis, shape, h);
-	std::mt19937                           random(11);
-	std::uniform_real_distribution<double> uniform(-1e-7 * c, 1e-7 * c);
-	const int                              dim = dimension(analysis);
-	s.setVelocity([&](auto) { return std::array<double, 3> { uniform(random), dim > 1 ? uniform(random) : 0, dim > 2 ? uniform(random) : 0 }; });
-	s.control.dt = dt;
-	method.set(s.control);
-	const double start = s.kineticEnergy();
-	double       worst = 0;
-	try {
-		for (int k = 0; k < steps; ++k) {
-			s.step();
-			if (k % 20 == 0) worst = std::max(worst, s.kineticEnergy() / start);
-			if (!(worst < 1e6)) return HUGE_VAL;
-		}
-	} catch (const StepFailure&) {
-		return HUGE_VAL;
-	}
-	return worst;
-}
-
 struct StabilityCase {
 	const char*           name;
 	Analysis              analysis;
@@ -135,17 +110,45 @@ TEST(LongStableStepTest, RunsOnBothSidesOfIt)
 				const bool   usl   = method.scheme == Scheme::usl;
 				// GIMP points whose domain just ends at a node: moved by nothing, they touch a node of next to no mass
 				const double safe = usl && shape == ShapeKind::gimp ? .7 : .9;
-				EXPECT_LT(growth(s, k.analysis, shape, h, method, safe * limit, steps), 5);
+				EXPECT_LT(growth(s, k.analysis, shape, h, method, safe * limit, steps, 1e-7 * c), 5);
 				// where it becomes unstable
 				double unstable = 0;
 				for (double factor : { 1., 1.05, 1.1, 1.2 })
-					if (growth(s, k.analysis, shape, h, method, factor * limit, steps) > 100) {
+					if (growth(s, k.analysis, shape, h, method, factor * limit, steps, 1e-7 * c) > 100) {
 						unstable = factor;
 						break;
 					}
 				EXPECT_GT(unstable, 0);
 			}
 	}
+}
+
+/* The limit in a bar, wherever its free end is in a cell: what doc/accuracy says of it. */
+TEST(LongStableStepTest, BulkAndEdge)
+{
+	for (ShapeKind shape : allShapes)
+		for (Scheme scheme : allSchemes) {
+			SCOPED_TRACE(std::string(name(shape)) + ' ' + name(scheme));
+			const StepLimit limit { Analysis::uniaxial, shape, scheme };
+			const bool      usl     = scheme == Scheme::usl;
+			const double    above   = usl ? 1.11 : 1.005; // where it is unstable, times the computed one
+			const Scene     bulk    = limit.body(false, 0);
+			const double    inside  = limit.computed(bulk);
+			double          atWorst = HUGE_VAL;
+			EXPECT_FALSE(limit.grows(bulk, .995 * inside));
+			EXPECT_TRUE(limit.grows(bulk, above * inside));
+			for (double place : StepLimit::places()) {
+				SCOPED_TRACE(place);
+				const Scene  s  = limit.body(true, place);
+				const double dt = limit.computed(s);
+				EXPECT_FALSE(limit.grows(s, .995 * dt));
+				EXPECT_TRUE(limit.grows(s, above * dt));
+				atWorst = std::min(atWorst, dt);
+			}
+			// the edge over the bulk
+			const double expected[4][2] { { .813, .0198 }, { 1, .796 }, { .907, .550 }, { .953, .762 } };
+			EXPECT_NEAR(atWorst / inside, expected[std::size_t(shape)][usl], .003);
+		}
 }
 
 } // namespace
