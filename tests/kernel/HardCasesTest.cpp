@@ -382,17 +382,25 @@ TEST(HardCasesTest, VerySharpKnee)
 	EXPECT_LT(worst, 1e-3 * greatest);
 }
 
-/* A bar under its weight, 0.9 of the yield stress at the wall, and left to vibrate: the smooth law creeps by each small cycle;
+/* A bar under its weight, 0.9 of the yield stress at the wall, and left to vibrate: the smooth law creeps and heats up by each small cycle;
 compatible reloading shakes down. */
 TEST(HardCasesTest, RatchetingByNoise)
 {
-	std::array<double, 2> creep {};
+	std::array<double, 2> creep {}, early {}, late {};
 	for (std::size_t k = 0; k < 2; ++k) {
 		Law law = Scene::boucWen(young, 0, density, 1e-3 * young, 2, .05);
 		if (k) law.boucWen.reloading = HUGE_VAL;
-		Scene        s    = bar(16, ShapeKind::cubic, { law });
+		Scene s               = bar(16, ShapeKind::cubic, { law });
+		s.control.trackEnergy = true;
+		s.start(Analysis::uniaxial, ShapeKind::cubic, 1. / 16);
 		const double full = .9 * law.boucWen.yieldStress / density;
 		auto         tip  = [&] { return s.points.position[0][s.byId().back()]; };
+		auto         heat = [&] { // mean over the volume, over the elastic energy at yield
+                        double sum = 0;
+                        for (double d : s.points.dissipation)
+                                sum += d / double(s.points.count());
+                        return sum / (.5 * law.boucWen.yieldStress * law.boucWen.yieldStress / young);
+		};
 		s.control.damping = .05;
 		const int ramp    = 4000;
 		for (int step = 0; step < ramp; ++step)
@@ -402,17 +410,21 @@ TEST(HardCasesTest, RatchetingByNoise)
 		for (std::size_t p = 0; p < s.points.count(); ++p)
 			s.points.velocity[0][p] += .05 * std::sin(.5 * pi * s.points.position[0][p]);
 		s.solver->pointsChanged();
-		std::vector<double> mean; // of the tip, over windows of ten periods
+		std::vector<double> mean, heats { heat() }; // of the tip, over windows of ten periods; at their ends
 		for (int window = 0; window < 6; ++window) {
 			double sum = 0;
 			for (int step = 0; step < 3200; ++step)
 				s.step(), sum += tip();
-			mean.push_back(sum / 3200);
+			mean.push_back(sum / 3200), heats.push_back(heat());
 		}
 		creep[k] = (mean[5] - mean[1]) / (mean[1] - 1);
+		early[k] = heats[1] - heats[0], late[k] = heats[6] - heats[5];
 	}
 	EXPECT_LT(creep[0], -.02) << "without the remedy there is something to cure";
 	EXPECT_LT(std::abs(creep[1]), 2e-4);
+	EXPECT_GT(early[1], .5) << "it yields until it has shaken down";
+	EXPECT_GT(late[0], .05 * early[0]);
+	EXPECT_LT(late[1], 3e-4 * early[1]);
 }
 
 } // namespace
