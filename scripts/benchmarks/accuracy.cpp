@@ -2,7 +2,7 @@
 // Error and cost of the cases of doc/accuracy, as CSV: scripts/benchmarks/accuracy runs it and draws.
 #include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
-#include "kernel/Continuity.hpp"
+#include "../../tests/kernel/WeightColumn.hpp"
 #include "kernel/ShapeFunction.hpp"
 #include "kernel/TileGrid.hpp"
 #include <cstdio>
@@ -295,6 +295,18 @@ int main(int count, char** arguments)
 	if (part == "steps") {
 		std::printf("body,shape,scheme,where,place,computed,actual\n");
 		stepLimits("bar", Analysis::uniaxial), stepLimits("plate", Analysis::planeStrain);
+		return 0;
+	}
+	if (part == "columns") {
+		std::printf("load,shape,spread,first_point,wall_force\n");
+		for (double load : { -.3, -.1, -.01, .01, .02, .05, .07, .1, .15, .2, .3 })
+			for (ShapeKind shape : allShapes)
+				try {
+					const WeightColumn column(shape, load);
+					std::printf("%g,%s,%.4f,%.4f,%.5f\n", load, name(shape), column.spread, column.firstPoint, column.wallForce);
+				} catch (const StepFailure&) {
+					std::printf("%g,%s,,,\n", load, name(shape));
+				}
 		return 0;
 	}
 	if (count > 2) only = arguments[2];

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures and tables of doc/accuracy from its accuracy.csv, steps.csv and drift.csv.  python3 scripts/benchmarks/accuracy.py doc/accuracy [errors]
+"""Figures and tables of doc/accuracy from its accuracy.csv, steps.csv, columns.csv and drift.csv.  python3 scripts/benchmarks/accuracy.py doc/accuracy [errors]
 
 Cost is points times steps times the unit cost of a choice: CPU time a point and step, the least over the grids of a case, which is that of
 the fine ones. It is steadier than the time of one run."""
@@ -114,6 +114,16 @@ def limits():
 			'%.3f to %.3f' % (min(parts), max(parts)))
 
 
+def columns():
+	"""Rows of the table of columns, one a load."""
+	rows = {}
+	with open(os.path.join(FOLDER, 'columns.csv')) as f:
+		for row in csv.DictReader(f):
+			told = '%.2g; %+.1f; %+.1f' % (100*float(row['spread']), 100*float(row['first_point']), 100*float(row['wall_force'])) if row['spread'] else 'torn'
+			rows.setdefault(row['load'], {})[row['shape']] = told.replace('+0.0', '0').replace('-0.0', '0')
+	return [(load,) + tuple(told[k] for k in SHAPES) for load, told in rows.items()]
+
+
 def put(text, mark, content):
 	return re.sub('(<!-- %s -->\n).*?(<!-- end of %s -->)' % (mark, mark), lambda m: m.group(1) + content + '\n' + m.group(2), text, flags=re.S)
 
@@ -138,6 +148,7 @@ text = put(text, 'orders', table(('case', 'choice', 'cells: error', 'last order'
 text = put(text, 'quadrature', table(('spacing/h',) + SHAPES, [(s,) + tuple('%.2g' % v[k] if v[k] > 1e-12 else '0' for k in SHAPES) for s, v in quadrature.items()]))
 text = put(text, 'steps', table(('body', 'shape', 'scheme', 'bulk: computed [h/c]', 'failure over it', 'edge: least computed [h/c]', 'least that fails [h/c]',
 	'failure over computed, all places'), limits()))
+text = put(text, 'columns', table(('rho g L/E',) + SHAPES, columns()))
 with open(os.path.join(FOLDER, 'drift.csv')) as f: drift = list(csv.reader(f))[1:]
 text = put(text, 'drift', table(('body', 'scheme', 'points', 'steps', 'energy over that at the start', 'centre of mass has moved by [cells]'), drift))
 with open(page, 'w') as f: f.write(text)

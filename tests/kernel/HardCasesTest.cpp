@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Scenes that break a material point method, each with the bound that is claimed, or the exception that ends it. */
 #include "VibratingBar.hpp"
+#include "WeightColumn.hpp"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -425,6 +426,27 @@ TEST(HardCasesTest, RatchetingByNoise)
 	EXPECT_GT(early[1], .5) << "it yields until it has shaken down";
 	EXPECT_GT(late[0], .05 * early[0]);
 	EXPECT_LT(late[1], 3e-4 * early[1]);
+}
+
+/* A folded wall holds what hangs from it, and the points' own stress is that of the weight above or below: what doc/accuracy says. */
+TEST(HardCasesTest, ColumnAtAFixedWall)
+{
+	struct Row {
+		ShapeKind shape;
+		double    load, firstPoint, spread;
+	};
+	for (const Row& row :
+		{ Row { ShapeKind::linear, -.1, .12, .13 }, Row { ShapeKind::gimp, -.1, .025, .007 }, Row { ShapeKind::quadratic, -.1, .005, .01 },
+			Row { ShapeKind::cubic, -.1, .002, .0012 }, Row { ShapeKind::linear, .05, .06, .18 }, Row { ShapeKind::gimp, .05, .02, .005 },
+			Row { ShapeKind::quadratic, .05, .004, .006 }, Row { ShapeKind::cubic, .05, .002, .001 }, Row { ShapeKind::cubic, .1, .002, .002 } }) {
+		SCOPED_TRACE(std::string(name(row.shape)) + ' ' + std::to_string(row.load));
+		const WeightColumn column(row.shape, row.load);
+		EXPECT_NEAR(column.wallForce, 0, 1e-3);
+		EXPECT_NEAR(column.firstPoint, 0, row.firstPoint);
+		EXPECT_LT(column.spread, row.spread);
+	}
+	for (ShapeKind shape : allShapes)
+		EXPECT_THROW(WeightColumn(shape, .3), StepFailure) << name(shape) << ": a tear is told";
 }
 
 } // namespace

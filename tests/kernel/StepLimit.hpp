@@ -31,7 +31,7 @@ inline double growth(
 	return worst;
 }
 
-/* The step swept to failure, in the bulk and at the edge (Bai & Schroeder, Stability analysis of explicit MPM, Comput. Graph. Forum 41 (2022) 19: the
+/* The step swept to failure, in the bulk and at the edge (Bai & Schroeder, Stability analysis of explicit MPM, Comput. Graph. Forum 41, 2022: the
 edge is the less stable). A line or a square of 2 points a cell and axis, unit cells and wave speed, nu = 0 or 0.3 in plane strain; in the bulk all ends are
 fixed walls and the points on their lattice, at the edge all are free and the lattice is shifted along all axes by a part of a cell. */
 struct StepLimit {
