@@ -266,7 +266,8 @@ void stepLimits(const char* body, Analysis analysis)
 			const StepLimit limit { analysis, shape, method };
 			auto            row = [&](const char* where, double place) {
                                 const Scene s = limit.body(where == std::string("edge"), place);
-                                std::printf("%s,%s,\"%s\",%s,%.4f,%.4g,%.4g\n", body, name(shape), name(method).c_str(), where, place, limit.computed(s), limit.actual(s));
+                                std::printf("%s,%s,\"%s\",%s,%.4f,%.4g,%.4g\n", body, name(shape), name(method).c_str(), where, place, limit.computed(s),
+						   limit.actual(s));
 			};
 			row("bulk", 0);
 			for (double place : StepLimit::places())
