@@ -12,6 +12,7 @@ across, steps = 40, 20
 solver, engine = r'MpmSolver<.*>::step\(', r'MpmEngine::action\('
 solid = r'Solver<yade::mpm::Solid'
 block = [('scene.py', '2', 'cubic', law, *what) for what in ((), ('bodies',), ('energy',)) for law in ('elastic', 'yielding')]
+block += [('scene.py', '2', 'cubic', 'elastic', what) for what in ('fullMass', 'filter')]
 
 
 def counted(script, *arguments):
@@ -23,7 +24,7 @@ def counted(script, *arguments):
 
 with open(os.path.join(sys.argv[1], 'costs.csv'), 'w', newline='') as file:
     table = csv.writer(file)
-    table.writerow(['scene', 'law', 'bodies', 'energies', 'kernel', 'engine', 'loop', 'outside the kernel', 'in 3D code'])
+    table.writerow(['scene', 'law', 'bodies', 'energies', 'full mass', 'filter', 'kernel', 'engine', 'loop', 'outside the kernel', 'in 3D code'])
 
     def add(scene, points, n, *what):
         outside = n['all'] - n[solver]
@@ -32,5 +33,5 @@ with open(os.path.join(sys.argv[1], 'costs.csv'), 'w', newline='') as file:
         file.flush()
 
     for script, *arguments in block:
-        add('block', across**2, counted(script, str(across), *arguments), arguments[2], 'bodies' in arguments, 'energy' in arguments)
-    add('cantilever', 360, counted('cantilever.py'), 'hysteretic', True, False)
+        add('block', across**2, counted(script, str(across), *arguments), arguments[2], *(what in arguments for what in ('bodies', 'energy', 'fullMass', 'filter')))
+    add('cantilever', 360, counted('cantilever.py'), 'hysteretic', True, False, False, False)

@@ -2,14 +2,14 @@
 """The blocks of Blocks.hpp inside YADE's loop. Prints one line of JSON: points, point-steps a second of wall and of CPU
 time (medians of five parts of the run), and bytes of memory a point, by the growth of the process.
 
-    scripts/yade-mpm -j<threads> -n -x scripts/benchmarks/scene.py across 2|3 shape elastic|yielding [bodies] [energy]
+    scripts/yade-mpm -j<threads> -n -x scripts/benchmarks/scene.py across 2|3 shape elastic|yielding [bodies] [energy] [fullMass] [filter]
 
 The motion is that of a wide plate, so that no point leaves its tile: strips of points whose velocities grow with x."""
 import json, os, statistics, sys, time
 from yade import mpm
 
 across, dim, shape, law = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3], sys.argv[4]
-bodies, energy = 'bodies' in sys.argv[5:], 'energy' in sys.argv[5:]
+bodies, energy, full, filtered = (what in sys.argv[5:] for what in ('bodies', 'energy', 'fullMass', 'filter'))
 points = across**dim
 steps = int(os.environ.get('MPM_BENCHMARK_STEPS', 0)) or max(5, (800000 if dim == 2 else 200000)//points)
 
@@ -38,7 +38,7 @@ O.trackEnergy = energy
 marks = []
 warm = 150 if law == 'yielding' else 10
 O.engines = ([ForceResetter()] if bodies else []) + [
-    MpmEngine(cellSize=2*spacing, analysis='planeStress' if dim == 2 else '3d', shape=shape, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')]),
+    MpmEngine(cellSize=2*spacing, analysis='planeStress' if dim == 2 else '3d', shape=shape, fullMass=full, filterTime=1000*O.dt if filtered else 0, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')]),
     PyRunner(iterPeriod=steps, nDo=6, firstIterRun=warm, command='marks.append((time.perf_counter(), time.process_time()))')]
 O.run(warm + 5*steps + 1, True)
 assert len(marks) == 6, marks

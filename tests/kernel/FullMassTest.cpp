@@ -129,6 +129,17 @@ TEST(FullMassTest, OtherShapesGain)
 	}
 }
 
+/* With the hysteretic law, until noise of the lattice on the soft tangent takes over: 2.34e-4 and 1.82e-4 with the lumped mass. */
+TEST(FullMassTest, HystereticBar)
+{
+	HystereticBar bar { ShapeKind::cubic, { Scheme::musl, true } };
+	const double  coarse = bar.error(8), fine = bar.error(16);
+	EXPECT_GT(std::log2(coarse / fine), 3.5);
+	EXPECT_LT(fine, 3.8e-6);
+	bar.yieldStress = bar.young / 50;
+	EXPECT_LT(bar.error(16), 7e-6);
+}
+
 /* The sum of energies under all that takes part: gravity, a moving wall, prescribed points, damping and PIC. */
 TEST(FullMassTest, EnergyBalanceIsOfTheOrderOfTheStep)
 {
