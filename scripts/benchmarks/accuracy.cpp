@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Error and cost of the cases of doc/accuracy, as CSV: scripts/benchmarks/accuracy runs it and draws.
+//   mpm_accuracy [errors [first letters of a problem's name] | steps | columns | drift]
 #include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
 #include "../../tests/kernel/WeightColumn.hpp"
