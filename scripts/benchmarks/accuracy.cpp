@@ -342,7 +342,10 @@ int main(int count, char** arguments)
 	}
 	const SoftCantilever toItsLowest("V6", 10, "soft_cantilever_fe.csv", 111), published("V6 published", 10, "soft_cantilever_fe_3s.csv", 301),
 		gentle("V6 three seconds", 6, "soft_cantilever_fe_6.csv", 301);
-	for (const Choice& k : choices(4)) {
+	std::vector<Choice> beams = choices(4);
+	for (int n : { 3, 4 })
+		beams.push_back({ ShapeKind::cubic, Scheme::musl, n, "full mass", true });
+	for (const Choice& k : beams) {
 		if (k.pointsPerCell == 1) continue;
 		for (const SoftCantilever* beam : { &toItsLowest, &published })
 			refine(beam->problem, k, 2, { 2, 4, 8 }, [&](int n, Cost& cost) { return beam->error(k, n, cost); });

@@ -140,7 +140,7 @@ TEST(LongStableStepTest, BulkAndEdge)
 				SCOPED_TRACE(place);
 				const Scene  s  = limit.body(true, place);
 				const double dt = limit.computed(s);
-				EXPECT_FALSE(limit.grows(s, .99 * dt));
+				EXPECT_FALSE(limit.grows(s, .995 * dt));
 				EXPECT_TRUE(limit.grows(s, above * dt));
 				atWorst = std::min(atWorst, dt);
 			}
