@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 FOLDER = sys.argv[1]
 SHAPES = ('linear', 'gimp', 'quadratic', 'cubic')
 COLOURS = dict(zip(SHAPES, ('C3', 'C1', 'C2', 'C0')))
-STYLES = {'MUSL': '-', 'USL': '--', 'USF': ':'}
+STYLES = {'MUSL': '-', 'USL': '--', 'USF': ':', 'MUSL full mass': '-.'}
 TITLES = {
 	'V1 small': 'bar, strain 3e-4', 'V1 large': 'bar, strain 0.16', 'V2 small': 'plane stress, strain 3e-4', 'V2 large': 'plane stress, strain 0.16',
 	'hysteretic': 'hysteretic bar, 1.3 yield strains', 'hysteretic far': 'hysteretic bar, 3.2 yield strains', 'V3 velocity': 'vibrating bar, velocity',
@@ -76,9 +76,10 @@ def table(head, rows): return '\n'.join(['| ' + ' | '.join(head) + ' |', '|' + '
 
 
 def draw(problem, choices):
-	figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), sharey=True)
+	figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5), sharey=True)
 	for key, levels in choices.items():
 		shape, scheme, points, variant = key
+		if variant == 'full mass': scheme, variant = 'MUSL full mass', ''
 		if variant or points not in ((16,) if problem[:2] == 'V6' else (2, 4)): continue
 		kept = [(1/n, e, c) for (n, e, _, _), c in zip(levels, costs(levels)) if e < math.inf]
 		if not kept: continue
@@ -87,12 +88,14 @@ def draw(problem, choices):
 		right.loglog(c, e, STYLES[scheme], color=COLOURS[shape], marker='o', markersize=3)
 	left.set_xlabel('cell size over %s' % {'V6': 'height', 'st': 'depth'}.get(problem[:2], 'length')); right.set_xlabel('cost [core-seconds]'); left.set_ylabel('error')
 	x0, x1 = left.get_xlim(); y0, y1 = left.get_ylim()
-	slope = [x0*1.2, x0*3.5]
-	left.loglog(slope, [y0*1.5*(x/slope[0])**2 for x in slope], color='grey', linewidth=1)
-	left.annotate('order 2', (slope[1], y0*1.5*(slope[1]/slope[0])**2), fontsize=8, color='grey')
+	for order, end in ((2, 3.5), (4, 2.2)):
+		slope = [x0*1.2, x0*end]
+		left.loglog(slope, [y0*1.5*(x/slope[0])**order for x in slope], color='grey', linewidth=1)
+		left.annotate('order %d' % order, (slope[1], y0*1.5*(slope[1]/slope[0])**order), fontsize=8, color='grey')
 	for axes in (left, right): axes.grid(True, which='major', linewidth=.3)
-	left.legend(fontsize=7, ncol=2); figure.suptitle(TITLES[problem])
-	figure.tight_layout()
+	labelled = dict(zip(*reversed(left.get_legend_handles_labels())))
+	figure.legend(labelled.values(), labelled.keys(), fontsize=7, ncol=6, loc='lower center'); figure.suptitle(TITLES[problem])
+	figure.tight_layout(rect=(0, .1, 1, 1))
 	figure.savefig(os.path.join(FOLDER, problem.replace(' ', '_') + '.png'), dpi=110)
 	plt.close(figure)
 
