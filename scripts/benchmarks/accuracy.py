@@ -133,15 +133,16 @@ def put(text, mark, content):
 
 
 def transfers(name):
-	"""Cases by rows, transfers by columns; the kernel's numbers first where there are some."""
+	"""Cases by rows, transfers by columns, and the kernel's next to those of the study."""
 	columns, rows = [], {}
-	for file in (name + '_kernel.csv', name + '.csv'):
+	for file in (name + '.csv', name + '_kernel.csv'):
 		path = os.path.join(FOLDER, file)
 		if not os.path.exists(path): continue
 		with open(path) as f:
 			for case, quantity, transfer, value in list(csv.reader(f))[1:]:
 				if transfer not in columns: columns.append(transfer)
 				rows.setdefault(case + ': ' + quantity, {})[transfer] = '%.3g' % float(value) if abs(float(value)) < .1 else '%.4g' % float(value)
+	columns = sorted(columns, key=lambda column: columns.index(column.replace(', kernel', '')))
 	return table([''] + columns, [[row] + [values.get(c, '') for c in columns] for row, values in rows.items()])
 
 

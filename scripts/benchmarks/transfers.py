@@ -22,6 +22,7 @@ TRANSFERS = (
 	Transfer('APIC', 'APIC'),
 	Transfer('FLIP, moved after', 'after'),
 	Transfer('full mass', 'after', 2),
+	Transfer('full mass, k = 4', 'after', 4),
 	Transfer('full mass, XPIC(2), tau', 'after', 2, 2, True))
 
 
