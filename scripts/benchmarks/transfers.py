@@ -29,16 +29,17 @@ TRANSFERS = (
 class Body:
 	"""Points on a lattice, in one dimension or two: position x, velocity v and, for APIC, its gradient C; stress; deformation gradient F.
 
-	velocity(x) gives the velocities, law(stress, strain increment) the new stress. walls: pairs of a plane and the side, 1 or -1, that the
+	tau is the time of a transfer that has one. velocity(x) gives the velocities, law(stress, strain increment) the new stress. walls: pairs of a plane and the side, 1 or -1, that the
 	material is on, frictionless, in one dimension; splines are folded there (doc/method.md)."""
 
-	def __init__(self, x, velocity, spacing, h, density, law, walls=()):
+	def __init__(self, transfer, tau, x, velocity, spacing, h, density, law, walls=()):
+		self.transfer, self.tau = transfer, tau
 		self.x, self.start, self.h, self.law, self.walls = x.copy(), x, h, law, walls
 		count, self.dim = x.shape
 		self.volume, self.mass = np.full(count, spacing**self.dim), np.full((count, 1), density*spacing**self.dim)
 		self.v, one, small = velocity(x), np.eye(self.dim), 1e-6*h
 		self.C = np.stack([(velocity(x + small*e) - velocity(x - small*e))/(2*small) for e in one], 2)
-		self.affine = 0  # moment of the spline that goes with C: h^2/3 in APIC, else none
+		self.affine = h**2/3 if transfer.kind == 'APIC' else 0  # second moment of the spline, that goes with C
 		self.F, self.stress, self.time = np.tile(one, (count, 1, 1)), np.zeros((count, self.dim, self.dim)), 0
 
 	def weigh(self):
@@ -104,9 +105,9 @@ class Body:
 			total = total + term
 		return total
 
-	def step(self, dt, transfer, tau=np.inf, force=None, damping=0):
-		kind, order, axes = transfer.kind, transfer.order, range(self.dim)
-		self.affine = self.h**2/3 if kind == 'APIC' else 0
+	def step(self, dt, force=None, damping=0):
+		_, kind, order, damps, scaled = self.transfer
+		axes = range(self.dim)
 		self.weigh()
 		V = self.volumes()[:, None]
 		f = -sum(self.toNodes(V*self.stress[:, :, e], 1, e) for e in axes)
@@ -116,10 +117,10 @@ class Body:
 
 		if kind in ('FLIP', 'after'):
 			change = dt*self.toPoints(self.sharpen(a, order))
-			if transfer.damps:
+			if damps:
 				unseen = self.v
-				for _ in range(transfer.damps): unseen = self.rest(unseen)
-				change -= (dt/tau if transfer.scaled else 1)*unseen
+				for _ in range(damps): unseen = self.rest(unseen)
+				change -= (dt/self.tau if scaled else 1)*unseen
 			self.v = self.v + change
 			seen = self.sharpen(self.velocities(self.v), order)
 			moved = self.toPoints(seen if kind == 'after' else w + dt*a)
@@ -203,11 +204,11 @@ def manufactured(amplitude, cells, courant, transfer):
 	"""V1 with the hypoelastic law, one period of 0.02 s: greatest root mean square error of the positions."""
 	E, density, c, h = 1e7, 1000., 100., 1/cells
 	X = line(2*cells, 1)
-	body = Body(X, lambda x: np.pi*c*amplitude*np.sin(np.pi*x), h/2, h, density, elastic(E), ((0, 1), (1, -1)))
+	body = Body(transfer, .1, X, lambda x: np.pi*c*amplitude*np.sin(np.pi*x), h/2, h, density, elastic(E), ((0, 1), (1, -1)))
 	dt, worst = courant*h/c, 0
 	for _ in range(round(.02/dt)):
 		wave = amplitude*np.sin(np.pi*c*body.time)
-		body.step(dt, transfer, .1, np.pi**2*wave*np.sin(np.pi*X)*(E/(density*(1 + np.pi*wave*np.cos(np.pi*X))) - c*c))
+		body.step(dt, np.pi**2*wave*np.sin(np.pi*X)*(E/(density*(1 + np.pi*wave*np.cos(np.pi*X))) - c*c))
 		error = body.x - X - amplitude*np.sin(np.pi*c*body.time)*np.sin(np.pi*X)
 		worst = max(worst, np.sqrt(np.sum(body.volume*body.F[:, 0, 0]*error[:, 0]**2)))
 	return worst
@@ -229,11 +230,11 @@ def vibratingBar(transfer):
 	for v0, name in ((.1, 'vibrating bar'), (.75, 'vibrating bar, large')):
 		for cells in (16, 32):
 			h = L/cells
-			body = Body(line(2*cells, L), lambda x: v0*np.sin(.5*np.pi*x/L), h/2, h, 1, elastic(E), ((0, 1),))
+			body = Body(transfer, 50, line(2*cells, L), lambda x: v0*np.sin(.5*np.pi*x/L), h/2, h, 1, elastic(E), ((0, 1),))
 			def energy(): return body.kinetic() + np.sum(body.volume*E*(body.F*np.log(body.F) - body.F + 1)[:, 0, 0])
 			start, dt, worst = energy(), .1*h/c, 0
 			for _ in range(round(100/dt)):
-				body.step(dt, transfer, 50)
+				body.step(dt)
 				worst = max(worst, abs(body.v.mean()/(v0*2/np.pi) - np.cos(.5*np.pi*c/L*body.time)))
 			yield name, 'velocity error, %d cells' % cells, worst
 			yield name, 'energy kept, %d cells' % cells, energy()/start
@@ -243,10 +244,10 @@ def nullSpace(transfer):
 	"""Velocities that alternate from point to point on top of those of a vibrating bar: part of them left after ten periods."""
 	cells, c, ringing = 32, 100., 1e-3
 	h = 1/cells
-	body = Body(line(2*cells, 1), lambda x: .01*np.sin(.5*np.pi*x), h/2, h, 1000, elastic(1e7), ((0, 1),))
+	body = Body(transfer, .2, line(2*cells, 1), lambda x: .01*np.sin(.5*np.pi*x), h/2, h, 1000, elastic(1e7), ((0, 1),))
 	sign = (-1.)**np.arange(2*cells)
 	body.v += ringing*sign[:, None]
-	for _ in range(round(.4*c/(.2*h))): body.step(.2*h/c, transfer, .2)
+	for _ in range(round(.4*c/(.2*h))): body.step(.2*h/c)
 	v = body.v[:, 0]
 	yield 'null space', 'alternating velocities left', np.mean((sign[1:-1]*.5*(v[1:-1] - .5*(v[:-2] + v[2:])))[3:-4])/ringing
 
@@ -256,12 +257,12 @@ def impact(transfer):
 	cells, E, density, c, ratio = 64, 1e7, 1000., 100., .5
 	h, shock = 1/cells, 1.
 	for _ in range(200): shock = .5*(shock - np.log(1 - ratio/shock)/ratio)
-	body = Body(line(2*cells, 1), lambda x: np.full_like(x, -ratio*c), h/2, h, density, elastic(E), ((0, 1),))
+	body = Body(transfer, .2, line(2*cells, 1), lambda x: np.full_like(x, -ratio*c), h/2, h, density, elastic(E), ((0, 1),))
 	def momentum(): return np.sum(body.mass*body.v)
 	dt, end = .34*h/c, .8/(shock*c)
-	while body.time + dt < .1*end: body.step(dt, transfer, .2)
+	while body.time + dt < .1*end: body.step(dt)
 	begin, before = body.time, momentum()
-	while body.time < end: body.step(dt, transfer, .2)
+	while body.time < end: body.step(dt)
 	force = (momentum() - before)/(body.time - begin)
 	yield 'impact at half the wave speed', 'wall force', force/(E*shock*ratio)
 
@@ -271,13 +272,13 @@ def ratcheting(transfer):
 	cells, c, E, yieldStress = 16, 100., 1e7, 1e4
 	h, ramp = 1/cells, 4000
 	for reloading in (False, True):
-		body = Body(line(2*cells, 1), np.zeros_like, h/2, h, 1000, hysteretic(E, yieldStress, .05, reloading), ((0, 1),))
+		body = Body(transfer, .2, line(2*cells, 1), np.zeros_like, h/2, h, 1000, hysteretic(E, yieldStress, .05, reloading), ((0, 1),))
 		weight, dt = .9*yieldStress/1000, .2*h/c
-		for k in range(2*ramp): body.step(dt, transfer, .2, np.full_like(body.x, weight*min(1, (k + 1)/ramp)), .05)
+		for k in range(2*ramp): body.step(dt, np.full_like(body.x, weight*min(1, (k + 1)/ramp)), .05)
 		body.v += .05*np.sin(.5*np.pi*body.x)
 		tips = []
 		for _ in range(6*3200):
-			body.step(dt, transfer, .2, np.full_like(body.x, weight))
+			body.step(dt, np.full_like(body.x, weight))
 			tips.append(body.x[-1, 0] - 1)
 		mean = np.mean(np.reshape(tips, (6, -1)), 1)
 		yield 'ratcheting by noise', 'creep%s' % (', elastic reloading' if reloading else ''), (mean[5] - mean[1])/mean[1]
@@ -288,10 +289,9 @@ def spin(transfer):
 	rate = 100.
 	for across in (16, 32):
 		h = .8/across
-		body = Body(plane(across, .4, (-.2, -.2)), lambda x: rate*np.stack([-x[:, 1], x[:, 0]], 1), h/2, h, 1000, elastic(1e7, .3))
-		body.affine = h**2/3 if transfer.kind == 'APIC' else 0
+		body = Body(transfer, .035, plane(across, .4, (-.2, -.2)), lambda x: rate*np.stack([-x[:, 1], x[:, 0]], 1), h/2, h, 1000, elastic(1e7, .3))
 		start, dt = body.angularMomentum(), 1.5e-4*16/across
-		for _ in range(int(3*2*np.pi/rate/dt)): body.step(dt, transfer, .035)
+		for _ in range(int(3*2*np.pi/rate/dt)): body.step(dt)
 		yield 'spinning square', 'angular momentum kept, %d cells' % (across//2), body.angularMomentum()/start
 		yield 'spinning square', 'widest gap [cells], %d cells' % (across//2), body.widestGap(across)
 
@@ -303,10 +303,10 @@ def disks(transfer):
 	left, right = (np.hypot(*(x - centre).T) < .2 for centre in (.2, .8))
 	x = x[left | right]
 	def velocity(at): return np.where(at[:, :1] + at[:, 1:] < 1, .1, -.1)*np.ones(2)
-	body = Body(x, velocity, h/2, h, 1000, elastic(1000, .3))
+	body = Body(transfer, 2.5, x, velocity, h/2, h, 1000, elastic(1000, .3))
 	start, one, worst = body.kinetic(), .1*body.mass.sum()/2, 0
 	for _ in range(3500):
-		body.step(1e-3, transfer, 2.5)
+		body.step(1e-3)
 		worst = max(worst, np.max(abs(np.sum(body.mass*body.v, 0)))/one)
 	yield 'two disks', 'kinetic energy recovered', body.kinetic()/start
 	yield 'two disks', 'energy kept', (body.kinetic() + body.stored(1000, .3, body.volumes()))/start
@@ -320,11 +320,11 @@ def stableStep(transfer):
 	for name, bodies in lattices.items():
 		def stable(step):
 			for x in bodies:
-				body = Body(x, np.zeros_like, h/2, h, 1000, elastic(1e7, .3*(x.shape[1] - 1)))
+				body = Body(transfer, 50*h/c, x, np.zeros_like, h/2, h, 1000, elastic(1e7, .3*(x.shape[1] - 1)))
 				body.v = np.random.default_rng(2017).uniform(-1e-7, 1e-7, x.shape)
 				start = body.kinetic()
 				for _ in range(400):
-					body.step(step*h/c, transfer, 50*h/c)
+					body.step(step*h/c)
 					if body.kinetic() > 1e4*start: return False
 			return True
 		low, high = .5, 4.
@@ -340,14 +340,14 @@ def drift(transfer, steps):
 	h, E, nu, c = .25, 1e7, .3, 100.
 	for part, name in ((.01, 'free square'), (.001, 'free square, a tenth of the motion')):
 		middle = np.array([.5 + .1*h, .5 + .3*h])
-		body = Body(plane(8, 1, (.1*h, .3*h)), lambda x: part*c*np.sin(np.pi*(x - middle)), h/2, h, 1000, elastic(E, nu))
+		body = Body(transfer, .1, plane(8, 1, (.1*h, .3*h)), lambda x: part*c*np.sin(np.pi*(x - middle)), h/2, h, 1000, elastic(E, nu))
 		done, centre = 0, body.x.mean(0)
 		for to in (500, 10000, 100000, 1000000):
 			if to > steps: break
-			for _ in range(done, to - 500): body.step(.2*h/c, transfer, .1)
+			for _ in range(done, to - 500): body.step(.2*h/c)
 			energy = 0
 			for _ in range(500):
-				body.step(.2*h/c, transfer, .1)
+				body.step(.2*h/c)
 				energy += (body.kinetic() + body.stored(E, nu, body.volume))/500
 			done = to
 			if to == 500: start = energy
