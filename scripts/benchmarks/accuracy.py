@@ -132,6 +132,20 @@ def put(text, mark, content):
 	return re.sub('(<!-- %s -->\n).*?(<!-- end of %s -->)' % (mark, mark), lambda m: m.group(1) + content + '\n' + m.group(2), text, flags=re.S)
 
 
+def transfers(name):
+	"""Cases by rows, transfers by columns, and the kernel's next to those of the study."""
+	columns, rows = [], {}
+	for file in (name + '.csv', name + '_kernel.csv'):
+		path = os.path.join(FOLDER, file)
+		if not os.path.exists(path): continue
+		with open(path) as f:
+			for case, quantity, transfer, value in list(csv.reader(f))[1:]:
+				if transfer not in columns: columns.append(transfer)
+				rows.setdefault(case + ': ' + quantity, {})[transfer] = '%.3g' % float(value) if abs(float(value)) < .1 else '%.4g' % float(value)
+	columns = sorted(columns, key=lambda column: columns.index(column.replace(', kernel', '')))
+	return table([''] + columns, [[row] + [values.get(c, '') for c in columns] for row, values in rows.items()])
+
+
 runs, quadrature = read()
 cheapest, orders = [], []
 for problem, choices in runs.items():
@@ -155,4 +169,5 @@ text = put(text, 'steps', table(('body', 'shape', 'scheme', 'bulk: computed [h/c
 text = put(text, 'columns', table(('rho g L/E',) + SHAPES, columns()))
 with open(os.path.join(FOLDER, 'drift.csv')) as f: drift = list(csv.reader(f))[1:]
 text = put(text, 'drift', table(('body', 'scheme', 'points', 'steps', 'energy over that at the start', 'centre of mass has moved by [cells]'), drift))
+for mark in ('transfers', 'transfers_drift'): text = put(text, mark, transfers(mark))
 with open(page, 'w') as f: f.write(text)
