@@ -210,6 +210,96 @@ TEST(BoucWenLaw, OneStepOfTenYieldStrainsIsTenThousandSmallOnes)
 	}
 }
 
+/* From a prestressed state, a step of hundreds of yield strains against the same in steps short enough for sub-steps all the way. */
+template <class S> void farStep(double n, double tangentRatio, double poisson, double length)
+{
+	SCOPED_TRACE(
+		std::to_string(S::N) + " components, n " + std::to_string(n) + ", alpha " + std::to_string(tangentRatio) + ", nu " + std::to_string(poisson));
+	Law law             = boucWenLaw(n, tangentRatio, 1e-4);
+	law.boucWen.elastic = law.elastic = { youngModulus, poisson };
+	LawPoint<S>              one(law);
+	std::array<double, S::N> first {}, then {};
+	const double             start[6] = { -1, .6, 2, 1, -2, 1.5 }, way[6] = { 1, -.3, .2, -.4, .3, .7 };
+	for (int k = 0; k < S::N; ++k)
+		first[std::size_t(k)] = start[k] * yieldStrain, then[std::size_t(k)] = length * way[k] * yieldStrain;
+	one.strain(first, 10);
+	LawPoint<S> many = one;
+	one.strain(then), many.strain(then, int(length / 20));
+	for (int k = 0; k < S::N; ++k) {
+		EXPECT_NEAR(one.sigma[k] / yieldStress, many.sigma[k] / yieldStress, 1e-4);
+		EXPECT_NEAR(one.internal[std::size_t(k)] / yieldStress, many.internal[std::size_t(k)] / yieldStress, 1e-4);
+	}
+	EXPECT_NEAR(one.plasticStrain() / many.plasticStrain(), 1, 1e-5);
+	EXPECT_NEAR(one.response.dissipation / many.response.dissipation, 1, 1e-4);
+}
+TEST(BoucWenLaw, OneStepOfHundredsOfYieldStrains)
+{
+	for (const double n : { .5, 2., 20. })
+		for (const double alpha : { 0., .05 })
+			for (const double poisson : { -.5, .3, .49 }) {
+				farStep<Uniaxial>(n, alpha, poisson, 500), farStep<PlaneStress>(n, alpha, poisson, 500);
+				farStep<PlaneStrain>(n, alpha, poisson, 500), farStep<Solid>(n, alpha, poisson, 500);
+				farStep<FreeNormals<2>>(n, alpha, poisson, 500), farStep<FreeNormals<1>>(n, alpha, poisson, 500);
+			}
+}
+
+/* A yield stress in the wrong unit: what a step costs has a bound, and what cannot be done within it is no number. */
+TEST(BoucWenLaw, NoStepTakesForEver)
+{
+	const std::array<double, 3> strain { 1e-3, -4e-4, 3e-4 };
+	for (const double n : { .5, 2., 200. })
+		for (const double yield : { 1e-6, 1e-9, 1e-12 })
+			for (const double alpha : { 0., .05 }) {
+				BoucWenParameters law = boucWenLaw(n, alpha, 1e-4).boucWen;
+				law.yieldStress       = yield * youngModulus;
+				Reals<1> e[3], sigma[3] {}, internal[8] {}, heat {};
+				for (const double sign : { 1., -1. }) {
+					int subSteps = 0;
+					for (int k = 0; k < 3; ++k)
+						e[k][0] = sign * strain[std::size_t(k)];
+					boucWenUpdate<PlaneStress>(law, e, sigma, internal, heat, &subSteps);
+					double xi[3];
+					for (int k = 0; k < 3; ++k)
+						xi[k] = sigma[k][0] - internal[k][0];
+					EXPECT_LT(subSteps, 1000 + 40 * n);
+					EXPECT_NEAR(std::sqrt(PlaneStress::mises2(xi)) / law.yieldStress, 1, 1e-4 + (alpha > 0 ? 1e-16 / yield : 0));
+				}
+			}
+	for (const auto& choose : std::initializer_list<std::function<void(BoucWenParameters&)>> { [](auto& p) { p.strengthDegradation = .1; },
+		     [](auto& p) { p.isotropic.modulus = 1e9; }, [](auto& p) { p.reloading = 2; }, [](auto& p) { p.n = 1e12; },
+		     [](auto& p) { p.loadingRule = BoucWenParameters::LoadingRule::paper; } }) {
+		Law law                 = boucWenLaw(10, 0, 1e-4);
+		law.boucWen.yieldStress = 1e-9 * youngModulus;
+		choose(law.boucWen);
+		LawPoint<PlaneStress> point(law);
+		point.strain(strain);
+		EXPECT_FALSE(std::isfinite(point.sigma[0]));
+	}
+	// under a pressure whose rounding is more than the tolerance
+	Law law                 = boucWenLaw(200, 0, 1e-8);
+	law.boucWen.elastic     = { youngModulus, .4999 };
+	law.boucWen.yieldStress = 1e-12 * youngModulus;
+	LawPoint<PlaneStrain> point(law);
+	point.strain({ .1, .1, .1, 0 });
+	for (int k = 0; k < 5 && std::isfinite(point.sigma[0]); ++k)
+		point.strain({ 3e-11, -2e-11, -1e-11, 2e-11 });
+	EXPECT_FALSE(std::isfinite(point.sigma[0]));
+}
+
+/* With the sign as printed f comes to 4 sigma_y, and falls back when the total strain has changed its sign: at the rate 4^n, which for a large n no
+sub-step can follow. */
+TEST(BoucWenLaw, SignOfThePaperFallsTooFastToFollow)
+{
+	Law law                 = boucWenLaw(25, 0, 1e-4);
+	law.boucWen.loadingRule = BoucWenParameters::LoadingRule::paper;
+	LawPoint<Uniaxial> bar(law);
+	LawPoint<Solid>    solid(law);
+	bar.strain({ 5 * yieldStrain }), solid.strain({ 5 * yieldStrain, 0, 0, 0, 0, yieldStrain });
+	bar.strain({ -10 * yieldStrain }), solid.strain({ -10 * yieldStrain, 0, 0, 0, 0, -2 * yieldStrain });
+	EXPECT_FALSE(std::isfinite(bar.sigma[0]));
+	EXPECT_FALSE(std::isfinite(solid.sigma[0]));
+}
+
 TEST(BoucWenLaw, SignOfThePaperLetsTheStressPassYield)
 {
 	// n = 2: 0 -> 5 -> -5 with alpha = 0 reaches 4 sigma_y, 0 -> 8 -> -8 with alpha = 0.2 reaches 7
@@ -509,6 +599,7 @@ TEST(BoucWenLaw, RefusesInadmissibleParameters)
 	const double nan = std::nan("");
 	for (const Case& c : {
 		     Case { "yieldStress", [](auto& p) { p.yieldStress = -1; } },
+		     Case { "yieldStress = 0.001", [](auto& p) { p.yieldStress = 1e-3; } },
 		     Case { "n = 0", [](auto& p) { p.n = 0; } },
 		     Case { "n = nan", [=](auto& p) { p.n = nan; } },
 		     Case { "beta + gamma", [](auto& p) { p.beta = .6; } },

@@ -209,4 +209,33 @@ TEST(FailureTest, DeformedBeyondMeasureInAStep)
 		}
 }
 
+/* A yield stress in MPa where Pa are meant. Plain, the law flows; with an option it would need too many sub-steps. */
+TEST(FailureTest, StrainedByMoreThanTheLawCanFollow)
+{
+	for (Scheme scheme : allSchemes)
+		for (bool mixed : { false, true })
+			for (bool energy : { false, true }) {
+				SCOPED_TRACE(std::string(name(scheme)) + (mixed ? " mixed" : "") + (energy ? " energy" : ""));
+				Scene s          = block(Analysis::planeStress);
+				s.laws           = { Scene::boucWen(1e8, .3, 1000, .1, 10, 0), Scene::elastic(1e8, .3, 1000) };
+				s.control.scheme = scheme, s.control.trackEnergy = energy;
+				s.control.dt = 1e-4;
+				for (std::size_t p = 0; p < s.points.count() && mixed; p += 2)
+					s.points.material[p] = 1;
+				s.start(Analysis::planeStress, ShapeKind::cubic, .25);
+				auto strike = [&] { s.setVelocity([](auto x) { return std::array<double, 3> { 10 * x[1], 0, 0 }; }); };
+				strike();
+				int id = -1;
+				EXPECT_EQ(failure(s, 10, id), "");
+				EXPECT_TRUE(sound(s));
+				s.laws[0].boucWen.strengthDegradation = .1;
+				s.points.prepare(2, 3, Internals::of(s.laws[0]).columns(3), false, false, energy, false);
+				strike();
+				const std::string text = failure(s, 3, id);
+				expectSays(text,
+					{ ("material point " + std::to_string(id) + " ").c_str(), "its law can follow", "reduce O.dt", "yieldStress in Pa" });
+				EXPECT_TRUE(sound(s)) << "whole, and can be saved";
+			}
+}
+
 } // namespace

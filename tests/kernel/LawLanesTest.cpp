@@ -151,4 +151,25 @@ TYPED_TEST(LawLanes, ArePointsAlone)
 		}
 }
 
+/* A lane strained by thousands of yield strains, or by more than can be followed, has a way of its own; the others do not notice. */
+TYPED_TEST(LawLanes, AFarStrainLeavesTheOthersAlone)
+{
+	for (const Law& law : { boucWenLaw(10, .05, 1e-4), everyLaw().back().law })
+		for (InstructionSet set : { InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512 }) {
+			if (!isSupported(set)) continue;
+			LawBlock<TypeParam> near {}, far {};
+			for (int step = 0; step < 3; ++step) {
+				for (int l = 0; l < lanes; ++l)
+					for (int k = 0; k < TypeParam::dim * TypeParam::dim; ++k)
+						near.G[k][l] = far.G[k][l] = (k ? .7 : 2) * (l + step) * yieldStrain;
+				far.G[0][3] = law.boucWen.paper() ? HUGE_VAL : 5e3 * yieldStrain;
+				updateBlock(set, law, false, near), updateBlock(set, law, false, far);
+				EXPECT_EQ(std::isfinite(far.sigma[0][3]), !law.boucWen.paper());
+				for (int l = 0; l < lanes; ++l)
+					for (int k = 0; k < TypeParam::N && l != 3; ++k)
+						ASSERT_EQ(near.sigma[k][l], far.sigma[k][l]) << name(set) << ", lane " << l;
+			}
+		}
+}
+
 } // namespace

@@ -133,6 +133,9 @@ TEST(PointDriver, SaysWhatIsWrong)
 	EXPECT_EQ(complaint(law, bad), "");
 	bad[9] = std::nan("");
 	EXPECT_NE(complaint(law, bad).find("strain xx of entry 1"), std::string::npos);
+	Law soft                 = boucWenLaw(10, 0, 1e-4);
+	soft.boucWen.yieldStress = 240, soft.boucWen.strengthDegradation = .1;
+	EXPECT_NE(complaint(soft, helix(3)).find("strain of entry 1: "), std::string::npos) << complaint(soft, helix(3));
 	bad = helix(3), bad[10] += 1e-6;
 	EXPECT_NE(complaint(law, bad).find("symmetric"), std::string::npos);
 	EXPECT_NE(complaint(law, { 1, 2, 3 }).find("nine"), std::string::npos);

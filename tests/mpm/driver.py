@@ -179,6 +179,8 @@ for kind, parameters in bounds.items():
 	check('%s with admissible parameters is driven' % name, numpy.isfinite(good.stress).all() and good.plasticStrain[-1] > 0, good.plasticStrain[-1])
 for beta, gamma in (.5, .6), (nan, .5), (.5, nan):
 	refused('beta = %g, gamma = %g' % (beta, gamma), RuntimeError, 'BoucWenMat.beta + gamma = %g: ' % (beta + gamma), 'must add to 1', material=BoucWenMat(beta=beta, gamma=gamma, **steel))
+refused('a step that the law cannot follow', ValueError, 'mpm.drive: strain of entry 1: ', 'cannot follow', 'yieldStress in Pa',
+	strain=pull((0, 1e6)), material=BoucWenMat(**dict(steel, n=10, strengthDegradation=.1)))
 refused('no strength', RuntimeError, 'DruckerPragerMat.cohesion = 0: ', 'positive cohesion', material=DruckerPragerMat(young=1e7, poisson=.3))
 for option in dict(isotropicModulus=1e9), dict(strengthDegradation=.1), dict(stiffnessDegradation=.1), dict(pinching=.1), dict(reloading=2):
 	refused('the paper\'s rule with %s' % list(option)[0], RuntimeError, "BoucWenMat.loadingRule = 'paper': ", "'normal'", material=BoucWenMat(loadingRule='paper', **dict(steel, **option)))

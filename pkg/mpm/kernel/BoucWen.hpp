@@ -2,9 +2,11 @@
 #pragma once
 
 #include "Hardening.hpp"
+#include "J2.hpp"
 #include "Reals.hpp"
 #include "StressState.hpp"
 #include <algorithm>
+#include <limits>
 
 namespace yade::mpm {
 
@@ -266,18 +268,85 @@ namespace detail {
 		});
 	}
 
-	/* Modified Euler pairs with error control, after Sloan, every lane in sub-steps of its own until the last has arrived. */
+	/* Sub-steps are n/2 or so a yield strain. More than these are as good as a run that hangs: the point is given up, its stress no number. */
+	constexpr double mostSubSteps = 1e5;
+	/* Increments of more yield strains than this are rare, and have their own way. */
+	constexpr double farStrain = 64;
+
+	template <class S, int W> bool isFar(const BoucWenParameters& law, const Reals<W>* strain)
+	{
+		const double limit = law.yieldStress * std::min(farStrain, mostSubSteps / law.n);
+		return anyLane<W>([&](int l) {
+			double e[S::N], De[S::N];
+			for (int k = 0; k < S::N; ++k)
+				e[k] = strain[k][l];
+			S::elastic(law.elastic, e, De);
+			return !(S::mises2(De) <= limit * limit);
+		});
+	}
+	/* The part of an increment that sub-steps are for; 0 where they would be too many.
+
+	Without options the end of a far one is steady flow, which remembers nothing of its beginning: a difference from it decays with rate n (f),
+	and at least with the ratio of the moduli of the two parts of xi, or 1 (its direction), a yield strain. When it is e^-4 of the tolerance,
+	flowSteadily() takes the rest. */
+	template <class S> double reach(const BoucWenParameters& law, const double* strain)
+	{
+		double De[S::N];
+		S::elastic(law.elastic, strain, De);
+		const double A = splitModulus<S>(law.elastic), B = 3 * law.elastic.shear, slowest = std::min({ 1., law.n, A / B, B / A });
+		const double length = std::sqrt(S::mises2(De)) / law.yieldStress, memory = (4 - std::log(law.tolerance)) / slowest;
+		const bool   steady = law.plain() && length > std::max(memory, farStrain);
+		return std::max(1., law.n) * (steady ? memory : length) <= mostSubSteps ? steady ? memory / length : 1 : 0;
+	}
+	template <class S, int W> [[gnu::noinline]] void shorten(const BoucWenParameters& law, const Reals<W>* strain, Reals<W>* shorter, Reals<W>& part)
+	{
+		for (int l = 0; l < W; ++l) {
+			double e[S::N];
+			for (int k = 0; k < S::N; ++k)
+				e[k] = strain[k][l];
+			part[l] = reach<S>(law, e);
+			for (int k = 0; k < S::N; ++k)
+				shorter[k][l] = part[l] > 0 ? part[l] * e[k] : 0;
+		}
+	}
+	/* The rest of the increments. In steady flow, f = sigma_y, the backward Euler step of classical plasticity is exact, however long. */
+	template <class S, int W>
+	[[gnu::noinline]] void flowSteadily(
+		const BoucWenParameters& law, const Reals<W>* strain, const Reals<W>& part, Reals<W>* sigma, Reals<W>* eta, Reals<W>& p, Reals<W>& dissipation)
+	{
+		J2Parameters classical;
+		classical.elastic = law.elastic, classical.yieldStress = law.yieldStress, classical.hardening = law.hardening;
+		for (int l = 0; l < W; ++l) {
+			if (part[l] == 1) continue;
+			Reals<1> e[S::N], s[S::N], h[S::N], flow { { p[l] } }, heat { { dissipation[l] } };
+			for (int k = 0; k < S::N; ++k)
+				e[k][0] = (1 - part[l]) * strain[k][l], s[k][0] = sigma[k][l], h[k][0] = eta[k][l];
+			if (part[l] > 0)
+				j2Update<S>(classical, e, s, h, flow, heat);
+			else
+				s[0][0] = std::numeric_limits<double>::quiet_NaN();
+			for (int k = 0; k < S::N; ++k)
+				sigma[k][l] = s[k][0], eta[k][l] = h[k][0];
+			p[l] = flow[0], dissipation[l] = heat[0];
+		}
+	}
+
+	/* Modified Euler pairs with error control, after Sloan, every lane in sub-steps of its own until the last has arrived. The stress of a
+	lane that is given up is not a number. */
 	template <class S, bool options, int W>
 	void boucWenIntegrate(const BoucWenParameters& law, const Reals<W>* strain, Reloading<S, W>& reloading, Reals<W>* y, int* subSteps)
 	{
 		using Y         = BoucWenVector<S, options>;
 		constexpr int N = S::N, size = Y::size;
+		const double  nan       = std::numeric_limits<double>::quiet_NaN();
 		const bool    remembers = options && law.remembers();
 		const double  admitted  = .25 * law.tolerance * law.tolerance * law.yieldStress * law.yieldStress; // of |dy2 - dy1|^2
 		// where H1 H2 is left out anyhow
 		const double small =
 			options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(1e-3 * law.tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
-		Reals<W> De[N], part[N], partStrain[N], dy1[size], dy2[size], euler[size], mDe1, mDe2, error2, accepted, radius, done {}, step, failed {};
+		Reals<W> De[N], part[N], partStrain[N], dy1[size], dy2[size], euler[size], mDe1, mDe2, error2, accepted, radius, done {}, step, failed {},
+			lost {};
+		const int most = int(mostSubSteps + 20 / std::sqrt(law.tolerance));
 		forLanes<W>([&](int l) {
 			double e[N], d[N];
 			for (int k = 0; k < N; ++k)
@@ -287,7 +356,7 @@ namespace detail {
 				De[k][l] = d[k];
 			step[l] = 1;
 		});
-		for (;;) {
+		for (int round = 0; round < most; ++round) {
 			forLanes<W>([&](int l) { step[l] = std::min(step[l], 1 - done[l]); });
 			if (remembers) reloading.begin(law, y, De, step);
 			forLanes<W>([&](int l) {
@@ -338,9 +407,20 @@ namespace detail {
 					for (int k = 0; k < N; ++k)
 						y[k][l] -= excess * b[k];
 				});
+			else
+				forLanes<W>([&](int l) {
+					// beyond sigma_y f falls at the rate f^n, which may be too fast for the least sub-step
+					const bool over = (accepted[l] != 0) & (error2[l] > law.yieldStress * law.yieldStress);
+					for (int k = 0; k < size; ++k)
+						y[k][l] = over ? 0 : y[k][l];
+					lost[l] = over ? 1 : lost[l], done[l] = over ? 1 : done[l], step[l] = over ? 0 : step[l];
+				});
 			if (remembers) reloading.end(y, done, accepted);
 
-			if (!anyLane<W>([&](int l) { return (accepted[l] == 0) | (step[l] < 1 - done[l]); })) return;
+			if (!anyLane<W>([&](int l) { return (accepted[l] == 0) | (step[l] < 1 - done[l]); })) {
+				if (options && law.paper()) forLanes<W>([&](int l) { y[0][l] = lost[l] != 0 ? nan : y[0][l]; });
+				return;
+			}
 			forLanes<W>([&](int l) {
 				const bool   good   = accepted[l] != 0;
 				const double factor = .9 * std::sqrt(std::sqrt(admitted / error2[l]));
@@ -352,6 +432,7 @@ namespace detail {
 				failed[l]            = good ? 0 : 1;
 			});
 		}
+		forLanes<W>([&](int l) { y[0][l] = (done[l] < 1) | (lost[l] != 0) ? nan : y[0][l]; });
 	}
 } // namespace detail
 
@@ -370,35 +451,39 @@ void boucWenUpdate(const BoucWenParameters& law, const Reals<W>* strain, Reals<W
 	constexpr int           N = S::N;
 	detail::Reloading<S, W> reloading;
 	Reals<W>*               scalars = internal + law.tensors() * N;
-	auto                    run     = [&](auto options) {
-                using Y = detail::BoucWenVector<S, options.value>;
-                Reals<W> y[Y::size] {};
-                std::copy(sigma, sigma + N, y), std::copy(internal, internal + N, y + Y::eta);
-                y[Y::p] = scalars[0], y[Y::dissipation] = dissipation;
-                if constexpr (options.value) {
-                        if (law.degrades()) y[Y::e] = scalars[1], y[Y::compliance] = scalars[2];
-                        if (law.remembers()) {
-                                const Reals<W>* kept = scalars + law.scalars() - 2;
-                                reloading.limit = kept[0], reloading.origin = kept[1];
-                        }
-                        if (law.paper()) std::copy(internal + N, internal + 2 * N, y + Y::strain);
-                }
-                detail::boucWenIntegrate<S, options.value>(law, strain, reloading, y, subSteps);
-                std::copy(y, y + N, sigma), std::copy(y + Y::eta, y + Y::eta + N, internal);
-                scalars[0] = y[Y::p], dissipation = y[Y::dissipation];
-                if constexpr (options.value) {
-                        if (law.degrades()) scalars[1] = y[Y::e], scalars[2] = y[Y::compliance];
-                        if (law.remembers()) {
-                                Reals<W>* kept = scalars + law.scalars() - 2;
-                                kept[0] = reloading.limit, kept[1] = reloading.origin;
-                        }
-                        if (law.paper()) std::copy(y + Y::strain, y + Y::strain + N, internal + N);
-                }
+	Reals<W>                shorter[N], part;
+	const bool              far = detail::isFar<S>(law, strain);
+	if (far) detail::shorten<S>(law, strain, shorter, part);
+	auto run = [&](auto options) {
+		using Y = detail::BoucWenVector<S, options.value>;
+		Reals<W> y[Y::size] {};
+		std::copy(sigma, sigma + N, y), std::copy(internal, internal + N, y + Y::eta);
+		y[Y::p] = scalars[0], y[Y::dissipation] = dissipation;
+		if constexpr (options.value) {
+			if (law.degrades()) y[Y::e] = scalars[1], y[Y::compliance] = scalars[2];
+			if (law.remembers()) {
+				const Reals<W>* kept = scalars + law.scalars() - 2;
+				reloading.limit = kept[0], reloading.origin = kept[1];
+			}
+			if (law.paper()) std::copy(internal + N, internal + 2 * N, y + Y::strain);
+		}
+		detail::boucWenIntegrate<S, options.value>(law, far ? shorter : strain, reloading, y, subSteps);
+		std::copy(y, y + N, sigma), std::copy(y + Y::eta, y + Y::eta + N, internal);
+		scalars[0] = y[Y::p], dissipation = y[Y::dissipation];
+		if constexpr (options.value) {
+			if (law.degrades()) scalars[1] = y[Y::e], scalars[2] = y[Y::compliance];
+			if (law.remembers()) {
+				Reals<W>* kept = scalars + law.scalars() - 2;
+				kept[0] = reloading.limit, kept[1] = reloading.origin;
+			}
+			if (law.paper()) std::copy(y + Y::strain, y + Y::strain + N, internal + N);
+		}
 	};
 	if (law.plain())
 		run(std::false_type {});
 	else
 		run(std::true_type {});
+	if (far) detail::flowSteadily<S>(law, strain, part, sigma, internal, scalars[0], dissipation);
 }
 
 } // namespace yade::mpm

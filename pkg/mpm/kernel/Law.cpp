@@ -26,7 +26,11 @@ namespace {
 			require(C.young > 0 && std::isfinite(C.young), "young", C.young, "give a positive modulus [Pa]");
 			require(C.poisson > -1 && C.poisson < .5, "poisson", C.poisson, "give a ratio above -1 and below 0.5");
 		}
-		void yield(double stress) { require(stress > 0 && std::isfinite(stress), "yieldStress", stress, "give a positive stress [Pa]"); }
+		void yield(double stress, double young)
+		{
+			require(stress > 0 && std::isfinite(stress), "yieldStress", stress, "give a positive stress [Pa]");
+			require(stress >= 1e-12 * young, "yieldStress", stress, "give a stress [Pa] of at least 1e-12 young: less is lost in rounding");
+		}
 		void isotropic(const IsotropicHardening& law)
 		{
 			finiteNotNegative("isotropicModulus", law.modulus);
@@ -37,7 +41,7 @@ namespace {
 
 	void check(const BoucWenParameters& law, Check& c)
 	{
-		c.yield(law.yieldStress);
+		c.yield(law.yieldStress, law.elastic.young);
 		c.require(law.n > 0 && std::isfinite(law.n), "n", law.n, "give a positive exponent, 1 to 50 for metals");
 		c.require(std::abs(law.beta + law.gamma - 1) <= 1e-12, "beta + gamma", law.beta + law.gamma,
 			"the two must add to 1, or yieldStress is not the stress that is reached; 0.5 and 0.5 unload elastically");
@@ -78,7 +82,7 @@ std::string validate(const Law& law)
 		case Law::Kind::elastic: c.elastic(law.elastic); break;
 		case Law::Kind::boucWen: c.elastic(law.boucWen.elastic), check(law.boucWen, c); break;
 		case Law::Kind::j2:
-			c.elastic(law.j2.elastic), c.yield(law.j2.yieldStress), c.isotropic(law.j2.isotropic);
+			c.elastic(law.j2.elastic), c.yield(law.j2.yieldStress, law.j2.elastic.young), c.isotropic(law.j2.isotropic);
 			c.require(law.j2.hardening >= 0 && std::isfinite(law.j2.hardening), "hardening modulus", law.j2.hardening,
 				"give a tangentRatio from 0 to below 1");
 			break;

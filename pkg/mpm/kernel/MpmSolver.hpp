@@ -931,7 +931,12 @@ private:
 	{
 		if (m_reports[t].failed < 0) m_reports[t].failed = std::ptrdiff_t(p), m_reports[t].why = why;
 	}
-	static constexpr const char* noVolume = "has a volume that is not positive";
+	static constexpr const char*     noVolume = "has a volume that is not positive";
+	static constexpr const char*     noStress = "is strained by more than its law can follow in a step";
+	template <int count> static bool isFinite(const double* x)
+	{
+		return std::all_of(x, x + count, [](double value) { return std::isfinite(value); });
+	}
 	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
 	bool updateBlockStress(std::size_t t, Block block, const Lanes (&G)[gradients<S>])
 	{
@@ -954,6 +959,15 @@ private:
 			load(m_points.deformation[k], block, b.F[k]);
 
 		updateBlock(m_instructions, law, m_stressControl.largeStrain, b);
+		int sound = 1;
+#pragma omp simd reduction(& : sound)
+		for (int l = 0; l < lanes; ++l) {
+			double sum = 0;
+			for (int k = 0; k < N; ++k)
+				sum += b.sigma[k][l];
+			sound &= (sum - sum == 0) & (determinantOf(b.F, l) > 0);
+		}
+		if (!sound) reportBlock(t, block, b);
 
 		for (int k = 0; k < N; ++k)
 			store(b.sigma[k], block, m_points.stress[k]);
@@ -964,14 +978,33 @@ private:
 		if constexpr (hoop)
 			for (int l = 0; l < block.count; ++l)
 				advanceHoop(block.first + std::size_t(l), G[dim * dim][l]);
-		for (int l = 0; l < block.count; ++l) {
+		for (int l = 0; l < block.count && b.respond; ++l) {
 			const std::size_t p = block.first + std::size_t(l);
 			const double      e = b.response.freeStrain[l];
 			if (follows) m_points.freeStrain[p] += e;
 			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * e) / (1 - .5 * e);
-			if (!(determinantOf(b.F, l) > 0)) reportFailure(t, p, noVolume);
 		}
 		return true;
+	}
+	/* What has failed in a block; where it is the law, the point keeps its stress. */
+	[[gnu::noinline]] void reportBlock(std::size_t t, Block block, LawBlock<S>& b)
+	{
+		for (int l = 0; l < block.count; ++l) {
+			const std::size_t p = block.first + std::size_t(l);
+			double            sigma[N];
+			for (int k = 0; k < N; ++k)
+				sigma[k] = b.sigma[k][l];
+			if (!(determinantOf(b.F, l) > 0))
+				reportFailure(t, p, noVolume);
+			else if (!isFinite<N>(sigma))
+				reportFailure(t, p, noStress);
+			if (isFinite<N>(sigma)) continue;
+			for (int k = 0; k < N; ++k)
+				b.sigma[k][l] = m_points.stress[k][p];
+			for (std::size_t k = 0; k < m_points.internal.size(); ++k)
+				b.internal[k][l] = m_points.internal[k][p];
+			b.response.freeStrain[l] = 0;
+		}
 	}
 	void advanceHoop(std::size_t p, double g)
 	{
@@ -1019,6 +1052,7 @@ private:
 			Response         response;
 			const StressWork work(*this, law, p, F, increment.strain, sigma, internal);
 			updateStress<LawState<S>>(law, increment.strain, sigma, internal, &response);
+			if (!isFinite<N>(sigma)) return reportFailure(t, p, noStress);
 			if (!m_points.freeStrain.empty()) m_points.freeStrain[p] += response.freeStrain;
 			if (thinning) m_points.thicknessStretch[p] *= (1 + .5 * response.freeStrain) / (1 - .5 * response.freeStrain);
 			if constexpr (hoop) advanceHoop(p, G[dim * dim]);
@@ -1026,6 +1060,7 @@ private:
 			if (m_stressControl.trackEnergy) work.add(F, sigma, internal, response, m_tracking.tiles[t]);
 		} else {
 			updateStress<LawState<S>>(law, increment.strain, sigma, internal);
+			if (!isFinite<N>(sigma)) return reportFailure(t, p, noStress);
 			if constexpr (hoop) advanceHoop(p, G[dim * dim]);
 			advanceDeformation<dim>(G, m_stressControl.largeStrain, F);
 		}
@@ -1095,7 +1130,9 @@ private:
 			if (report.failed >= 0) {
 				const std::size_t p = std::size_t(report.failed);
 				report.failed       = -1;
-				fail(p, report.why, "reduce O.dt or the load, or use more points a cell");
+				fail(p, report.why,
+					report.why == noStress ? "reduce O.dt or the load, or look at its material (yieldStress in Pa?)"
+							       : "reduce O.dt or the load, or use more points a cell");
 			}
 	}
 	/* Points that have left their tile ask for a new sorting; those that have left the scene stop the run. */

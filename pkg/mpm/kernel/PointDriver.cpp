@@ -31,6 +31,11 @@ namespace {
 				increment[k] = value - before[k], before[k] = value;
 			}
 			updateStress<S>(law, increment, sigma, internal.data(), &response);
+			if (!std::all_of(sigma, sigma + S::N, [](double s) { return std::isfinite(s); }))
+				throw std::invalid_argument(
+					"strain of entry " + std::to_string(i)
+					+ ": the law cannot follow a step of this size from the entry before; put entries between the two, or "
+					  "look at the material (yieldStress in Pa?)");
 
 			for (int k = 0; k < S::N; ++k) {
 				const int c = S::solid[std::size_t(k)];

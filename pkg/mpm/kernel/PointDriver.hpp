@@ -19,7 +19,7 @@ struct PointHistory {
 no stress instead of a prescribed strain; what the path says of them is not read. Where some are free, the back stress
 stands in the subspace of the others (it has no component there).
 
-Throws std::invalid_argument on a law that validate() refuses and on a path that is not one. */
+Throws std::invalid_argument on a law that validate() refuses, on a path that is not one, and on a step that the law cannot follow. */
 PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free = { false, false, false });
 
 } // namespace yade::mpm
