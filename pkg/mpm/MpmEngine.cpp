@@ -79,12 +79,12 @@ void MpmEngine::step()
 	writeBodies();
 	if (control.trackEnergy) reportEnergies();
 	if (TimingInfo::enabled) clock.lap("points to bodies");
-	m_origins.resize(walls.size());
+	wallsLeft.resize(walls.size());
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
 			walls[w]->force[d] = wall.force[std::size_t(d)];
-		m_origins[w] = walls[w]->origin += scene->dt * walls[w]->velocity;
+		wallsLeft[w] = walls[w]->origin += scene->dt * walls[w]->velocity;
 	}
 }
 
@@ -204,18 +204,17 @@ void MpmEngine::prepareSolver()
 	auto&               runtime      = m_points->runtime;
 	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
 		m_points->finish();
-		if (m_solver) acousticFor.clear();
+		if (m_solver) acousticFor.clear(), continuity.forget(); // else it comes from a file, with what it knows of the points
 		require(points.stress.empty() || points.stress.size() == columns, self, "analysis", "'" + analysis + "'",
 			"the points already carry the stress of another analysis; make new points");
 		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
 		m_solver       = runtime.solver.get();
 		m_solverFor    = key;
 		m_checkedCount = 0;
-		m_continuity.forget();
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
-		if (m_points->filled) m_continuity.forget(), acousticFor.clear(); // ids of erased bodies are given again
+		if (m_points->filled) continuity.forget(), acousticFor.clear(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
 		m_points->filled = false;
 	}
@@ -394,13 +393,13 @@ void MpmEngine::checkContinuity(const mpm::StepControl& control)
 {
 	if (largestGap == std::numeric_limits<Real>::infinity()) return;
 	const auto stands = [](const shared_ptr<MpmWall>& wall, const Vector3r& origin) { return wall->origin == origin; };
-	if (!std::equal(walls.begin(), walls.end(), m_origins.begin(), m_origins.end(), stands)) m_continuity.forget(); // put elsewhere by a script
-	if (m_untilLook > 0) {
-		--m_untilLook;
+	if (!std::equal(walls.begin(), walls.end(), wallsLeft.begin(), wallsLeft.end(), stands)) continuity.forget(); // put elsewhere by a script
+	if (untilLook > 0) {
+		--untilLook;
 		return;
 	}
-	m_continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
-	m_untilLook = m_interval = std::min(2 * m_interval, long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)));
+	continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
+	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)));
 }
 
 // ---- bodies -------------------------------------------------------------------------------------------------------------
@@ -433,7 +432,7 @@ void MpmEngine::readBodies()
 		for (int d = 0; d < 3; ++d)
 			points.position[std::size_t(d)][p] = m_links[std::size_t(points.id[p])].state->pos[d];
 	if (erased) m_points->dropErased(*scene->bodies);
-	if (!moved.empty()) m_continuity.forget();
+	if (!moved.empty()) continuity.forget();
 	m_solver->pointsChanged();
 	checkPoints(analysisOf(analysis));
 }
@@ -496,7 +495,7 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 		if (body->material.get() != materials[points.material[p]].get()) {
 			m_points->finish();
 			m_points->changeMaterial(p, body->material);
-			m_continuity.forget(); // of some laws points are left out
+			continuity.forget(); // of some laws points are left out
 			prepareSolver();
 			materials = m_points->materials.data();
 		}

@@ -8,6 +8,15 @@
 #include <core/GlobalEngine.hpp>
 #include <core/Timing.hpp>
 
+namespace boost::serialization {
+template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
+{
+	yade::mpm::Continuity::Memory& m = continuity.memory;
+	archive&                       make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
+	archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
+}
+} // namespace boost::serialization
+
 namespace yade {
 
 class MpmEngine : public GlobalEngine {
@@ -38,6 +47,10 @@ public:
 		((Real, filteredAt, 0, (Attr::hidden), "Time of the last filtering [s]"))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
 		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, full mass or not, number of points and laws for which the stable step was last looked at"))
+		((mpm::Continuity, continuity, , Attr::hidden, "What the check for gaps knows of neighbours"))
+		((long, untilLook, 0, (Attr::hidden), "Steps to the next look at the gaps"))
+		((long, lookInterval, 5, (Attr::hidden), "Steps from the last look at the gaps to the next one"))
+		((std::vector<Vector3r>, wallsLeft, , (Attr::hidden), "Origins of the walls, as the last step has left them"))
 		((std::vector<shared_ptr<MpmWall>>, walls, , , "Boundaries; without any, the grid is unbounded."))
 		,
 		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
@@ -63,10 +76,6 @@ private:
 		Role    role; // what an engine means for the time step
 	};
 	std::vector<Checked> m_checkedEngines;
-
-	mpm::Continuity       m_continuity;
-	long                  m_untilLook = 0, m_interval = 5; // steps to the next look at its gaps, and from the last one to it
-	std::vector<Vector3r> m_origins;                       // of the walls, as the last step has left them
 
 	struct Link { // held, so that their addresses are theirs alone
 		shared_ptr<Body>  body;

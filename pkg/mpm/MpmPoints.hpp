@@ -99,14 +99,14 @@ public:
 	void postLoad(MpmPoints&);
 
 	Runtime    runtime;
-	bool       filled = true; // since the engine last looked at every point
-	std::mutex mutex;         // between the simulation's thread and Python's
+	std::mutex mutex; // between the simulation's thread and Python's
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",
 		((mpm::Points, points, , Attr::hidden, "Structure of arrays"))
 		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
+		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
 		,/*ctor*/,
 		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")

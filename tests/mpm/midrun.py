@@ -36,6 +36,16 @@ for loaded in False, True:
 	O.materials[0].young *= 100
 	O.run(1, True)
 	near('O.dt of a material 100 times as stiff, %s' % ('loaded' if loaded else 'in a run'), O.dt/before, .1, 1e-3)
+ends = []
+for loaded in False, True:
+	block(velocity=(0, -1, 0), walls=[MpmWall(normal=(0, 1, 0), kind='fixed')], timeStepSafety=.4)
+	O.run(20, True)
+	if loaded:
+		O.saveTmp()
+		O.loadTmp()
+	O.run(20, True)
+	ends.append((O.time, mpm.array('position')))
+check('steps that the engine chooses are the same after loading', ends[0][0] == ends[1][0] and (ends[0][1] == ends[1][1]).all(), (ends[0][0], ends[1][0]))
 ids, grid = block(timeStepSafety=.4)
 O.run(2, True)
 for i in ids: O.bodies.erase(i)
@@ -51,6 +61,16 @@ ids, grid = block(material=FrictMat(young=1e6, poisson=.3, density=1050, label='
 	walls=[hung(1)], courant=.1)
 raises('a bar that starts from rest and tears', RuntimeError, 'have come apart', lambda: O.run(3000, True))
 check('is found when it has torn, not long after', -8 < mpm.array('position')[:, 1].min() < -1, mpm.array('position')[:, 1].min())
+last, torn = O.iter, state()
+for before in 1, 25, last - 3:
+	bar = dict(material=FrictMat(young=1e6, poisson=.3, density=1050, label='soft'), analysis='planeStrain', shape='quadratic', gravity=(0, -1000, 0))
+	ids, grid = block(walls=[hung(1)], courant=.1, **bar)
+	O.run(last - before, True)
+	O.saveTmp()
+	O.loadTmp()
+	raises('saved and loaded %d steps before it is found to be torn' % before, RuntimeError, 'have come apart', lambda: O.run(3000, True))
+	equal('it is found at the same step', O.iter, last)
+	same('in the same state', state()['position'], torn['position'])
 
 ids, grid = block(analysis='planeStrain', walls=[hung(1)])
 O.run(30, True)

@@ -59,27 +59,30 @@ Continuity::Gap Continuity::widest(const Points& points, const std::vector<Law>&
 {
 	const bool known = locate(points);
 	if (!known) findNeighbours(points, laws);
-	std::vector<std::array<int, 3>> kinds;
+	std::vector<int> kinds;
 	for (const Wall& wall : walls)
-		kinds.push_back({ int(wall.kind), wall.axis, wall.side });
-	if (!known || kinds != m_walls) findFootings(points, laws, walls);
-	m_walls       = std::move(kinds);
-	const int dim = dimensionOf(points);
-	Gap       gap;
-	for (std::size_t k = 0; k < m_neighbours.size(); ++k) {
-		const Neighbour& n = m_neighbours[k];
-		if (n.dX == std::array<float, 3> { 0, 0, 0 }) continue;
-		const std::size_t p = m_place[k / m_links], q = m_place[n.slot];
-		if (p == nowhere || q == nowhere) continue; // erased since
+		kinds.insert(kinds.end(), { int(wall.kind), wall.axis, wall.side });
+	if (!known || kinds != memory.kinds) findFootings(points, laws, walls);
+	memory.kinds            = std::move(kinds);
+	const int         dim   = dimensionOf(points);
+	const std::size_t links = std::size_t(dim);
+	Gap               gap;
+	for (std::size_t k = 0; k < memory.neighbours.size(); ++k) {
+		const std::size_t slot = k / links, other = memory.neighbours[k], p = m_place[slot], q = m_place[other];
+		if (other == slot || p == nowhere || q == nowhere) continue; // none, or erased since
 		const double distance = (positionOf(points, q) - positionOf(points, p)).norm();
 		if (distance <= gap.opening) continue;
-		const double opening = distance - (meanDeformation(points, dim, p, q) * Eigen::Vector3d(n.dX[0], n.dX[1], n.dX[2])).norm();
+		Eigen::Vector3d dX = Eigen::Vector3d::Zero();
+		for (int d = 0; d < dim; ++d)
+			dX[d] = memory.dX[k * links + std::size_t(d)];
+		const double opening = distance - (meanDeformation(points, dim, p, q) * dX).norm();
 		if (opening > gap.opening) gap = { p, q, distance, opening };
 	}
-	for (const Footing& f : m_footings) {
-		const std::size_t p = m_place[f.slot];
+	for (std::size_t k = 0; k < memory.footings.size(); ++k) {
+		const std::size_t p = m_place[memory.footings[k]];
 		if (p == nowhere) continue;
-		const double distance = depth(points, p, walls[f.wall]), opening = distance - stretchAlong(points, walls[f.wall].axis, p) * f.distance;
+		const Wall&  wall     = walls[memory.walls[k]];
+		const double distance = depth(points, p, wall), opening = distance - stretchAlong(points, wall.axis, p) * memory.depths[k];
 		if (opening > gap.opening) gap = { p, nowhere, distance, opening };
 	}
 	return gap;
@@ -92,13 +95,24 @@ Continuity::Slot* Continuity::slotOf(int id)
 	return at < slots.size() ? &slots[at] : nullptr;
 }
 
-/* Finds the points' places; false where there is one that has not been seen before. */
+/* Finds the points' places; false where nothing is known, or there is a point that has not been seen before. */
 bool Continuity::locate(const Points& points)
 {
-	if (m_place.empty()) return false;
-	if (points.generation == m_generation && points.count() == m_count) return true;
+	const std::size_t n = memory.ids.size();
+	if (n == 0) return false;
+	if (m_place.size() != n) { // of a memory that has been loaded
+		m_bodies.clear(), m_loose.clear();
+		for (std::size_t slot = 0; slot < n; ++slot) {
+			const int         id    = memory.ids[slot];
+			auto&             slots = id >= 0 ? m_bodies : m_loose;
+			const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
+			if (slots.size() <= at) slots.resize(std::max(at + 1, 2 * slots.size()), Slot(-1));
+			slots[at] = Slot(slot);
+		}
+	} else if (points.generation == m_generation && points.count() == m_count)
+		return true;
 	m_generation = points.generation, m_count = points.count();
-	std::fill(m_place.begin(), m_place.end(), nowhere);
+	m_place.assign(n, nowhere);
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		const Slot* slot = slotOf(points.id[p]);
 		if (!slot || *slot == Slot(-1)) return false;
@@ -109,19 +123,13 @@ bool Continuity::locate(const Points& points)
 
 void Continuity::findNeighbours(const Points& points, const std::vector<Law>& laws)
 {
-	const std::size_t n   = points.count();
+	const std::size_t n = points.count(), links = std::size_t(dimensionOf(points));
 	const int         dim = dimensionOf(points);
-	m_generation = points.generation, m_count = n, m_links = std::size_t(dim);
-	m_neighbours.assign(n * m_links, {});
-	m_place.resize(n);
-	m_bodies.clear(), m_loose.clear();
-	for (std::size_t p = 0; p < n; ++p) {
-		const int         id    = points.id[p];
-		auto&             slots = id >= 0 ? m_bodies : m_loose;
-		const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
-		if (slots.size() <= at) slots.resize(std::max(at + 1, 2 * slots.size()), Slot(-1));
-		slots[at] = Slot(p), m_place[p] = p;
-	}
+	memory.ids            = points.id;
+	memory.neighbours.resize(n * links), memory.dX.assign(n * links * links, 0);
+	for (std::size_t k = 0; k < n * links; ++k)
+		memory.neighbours[k] = Slot(k / links);
+	m_place.clear(), locate(points);
 
 	constexpr double reach = 1.5; // spacings: neighbours along the axes of a lattice, and next to one
 	const double     width = 2 * *std::max_element(points.size.begin(), points.size.end()); // of bins: neighbours may be stretched already
@@ -138,7 +146,12 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 	}
 	std::sort(entries.begin(), entries.end(), before);
 
-	std::vector<std::pair<double, Neighbour>> found;
+	struct Neighbour {
+		double          distance; // in spacings
+		std::size_t     q;
+		Eigen::Vector3d dX;
+	};
+	std::vector<Neighbour> found;
 	for (const Entry& entry : entries) {
 		const std::size_t p = entry.p;
 		found.clear();
@@ -151,27 +164,31 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 				if (q == p || dx.squaredNorm() > width * width) continue;
 				const Eigen::Vector3d dX       = meanDeformation(points, dim, p, q).inverse() * dx;
 				const double          distance = 2 * dX.norm() / (points.size[p] + points.size[q]);
-				if (distance < reach && isAhead(dX)) found.push_back({ distance, { Slot(q), { float(dX[0]), float(dX[1]), float(dX[2]) } } });
+				if (distance < reach && isAhead(dX)) found.push_back({ distance, q, dX });
 			}
 		}
-		const std::size_t kept = std::min(found.size(), m_links);
-		std::partial_sort(
-			found.begin(), found.begin() + std::ptrdiff_t(kept), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-		for (std::size_t k = 0; k < kept; ++k)
-			m_neighbours[p * m_links + k] = found[k].second;
+		const std::size_t kept = std::min(found.size(), links);
+		std::partial_sort(found.begin(), found.begin() + std::ptrdiff_t(kept), found.end(),
+			[](const Neighbour& a, const Neighbour& b) { return a.distance < b.distance; });
+		for (std::size_t k = 0; k < kept; ++k) {
+			memory.neighbours[p * links + k] = Slot(found[k].q);
+			for (std::size_t d = 0; d < links; ++d)
+				memory.dX[(p * links + k) * links + d] = float(found[k].dX[int(d)]);
+		}
 	}
 }
 
 void Continuity::findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls)
 {
-	m_footings.clear();
+	memory.footings.clear(), memory.walls.clear(), memory.depths.clear();
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		if (walls[w].kind != Wall::Kind::fixed) continue;
 		for (std::size_t slot = 0; slot < m_place.size(); ++slot) {
 			const std::size_t p = m_place[slot];
 			if (p == nowhere || letsGo(laws[std::size_t(points.material[p])])) continue;
 			const double distance = depth(points, p, walls[w]) / stretchAlong(points, walls[w].axis, p);
-			if (distance < .75 * points.size[p]) m_footings.push_back({ Slot(slot), w, distance }); // the layer next to it
+			if (distance >= .75 * points.size[p]) continue; // not in the layer next to it
+			memory.footings.push_back(Slot(slot)), memory.walls.push_back(Slot(w)), memory.depths.push_back(distance);
 		}
 	}
 }

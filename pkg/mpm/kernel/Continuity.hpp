@@ -26,7 +26,7 @@ public:
 	points that have not been seen before; their deformation then counts as right. */
 	void check(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls, double cellSize, double widest, double time);
 	/* Points or walls have been put elsewhere by hand. */
-	void forget() { m_place.clear(); }
+	void forget() { memory = {}; }
 
 	struct Gap {
 		std::size_t p = 0, q = nowhere;        // places in the arrays; no q: a wall
@@ -35,25 +35,25 @@ public:
 	/* The widest gap of all, once the neighbours are known. */
 	Gap widest(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
 
+	/* What it remembers, in plain columns that can be saved with the points: of a body that is torn neither positions nor F tell any more who
+	was whose neighbour. A point's slot is its place when the neighbours were found. */
+	using Slot = std::uint32_t;
+	struct Memory {
+		std::vector<int>   ids;        // of the slots; none: nothing is known
+		std::vector<Slot>  neighbours; // as many of each slot as there are axes; itself where it has less
+		std::vector<float> dX;         // to each of them, undeformed, a number an axis
+		std::vector<Slot>  footings;   // slots of points on a fixed wall ...
+		std::vector<Slot>  walls;      // ... which wall each stands on ...
+		Column             depths;     // ... and how far from it, undeformed
+		std::vector<int>   kinds;      // kind, axis and side of all walls, as the footings have been found for
+	} memory;
+
 private:
-	using Slot                           = std::uint32_t; // of a point: its place when the neighbours were found
 	static constexpr std::size_t nowhere = std::size_t(-1);
-	struct Neighbour {
-		Slot                 slot = 0;
-		std::array<float, 3> dX { 0, 0, 0 }; // all zero: none
-	};
-	struct Footing { // of a point on a fixed wall
-		Slot        slot;
-		std::size_t wall;
-		double      distance; // undeformed
-	};
-	std::size_t                     m_links = 0;  // a point
-	std::vector<Neighbour>          m_neighbours; // m_links of each slot
-	std::vector<Footing>            m_footings;
-	std::vector<Slot>               m_bodies, m_loose;             // slots of the points with ids 0, 1, ... and -1, -2, ...
-	std::vector<std::size_t>        m_place;                       // of each slot, in the arrays as they stand, or nowhere
-	std::size_t                     m_generation = 0, m_count = 0; // of the points that m_place is good for
-	std::vector<std::array<int, 3>> m_walls;                       // kind, axis and side, as the footings have been found for
+	// made from the memory
+	std::vector<Slot>        m_bodies, m_loose;             // slots of the points with ids 0, 1, ... and -1, -2, ...
+	std::vector<std::size_t> m_place;                       // of each slot, in the arrays as they stand, or nowhere
+	std::size_t              m_generation = 0, m_count = 0; // of the points that m_place is good for
 
 	Slot* slotOf(int id);
 	bool  locate(const Points& points);
