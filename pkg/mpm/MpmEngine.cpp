@@ -379,12 +379,10 @@ void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 void MpmEngine::planFilter(mpm::StepControl& control)
 {
 	constexpr Real part = .02; // of filterTime, at least, between two times
-	if (filterTime == 0) return;
-	const Real end = control.time + control.dt;
-	if (filteredAt > control.time) filteredAt = control.time; // O.time has been set back
-	if (end - filteredAt < part * filterTime) return;
-	control.filter = -std::expm1(-(end - filteredAt) / filterTime);
-	filteredAt     = end;
+	unfiltered          = filterTime > 0 ? unfiltered + control.dt : 0;
+	if (filterTime == 0 || unfiltered < part * filterTime) return;
+	control.filter = -std::expm1(-unfiltered / filterTime);
+	unfiltered     = 0;
 }
 
 /* Looks for gaps when two points can have gone half a cell apart since the last look, at the velocities that they had then, and at the

@@ -195,5 +195,28 @@ TEST(FullMassTest, WhatTheFilterTakesIsDamping)
 	EXPECT_GT(e.damping, .05 * e.kinetic);
 	EXPECT_NEAR(e.total(), before, 1e-3 * e.damping);
 }
+/* What the full mass and the filter take from a wall's momentum or give to it is in its reaction and in its work. */
+TEST(FullMassTest, WorkOfAWallIsThatOfItsForce)
+{
+	for (bool full : { false, true })
+		for (double filter : { 0., .1 }) {
+			Scene s;
+			s.laws              = { Scene::elastic(1e6, .3, 1000) };
+			s.walls             = { Scene::wall(1, 1, 0, Wall::Kind::slip) };
+			s.walls[0].velocity = { 0, .5, 0 };
+			s.addBox(2, { 0, 0, 0 }, { .5, .5, 0 }, .0625);
+			s.control.fullMass = full, s.control.filter = filter, s.control.dt = 5e-4, s.control.trackEnergy = true;
+			s.start(Analysis::planeStrain, ShapeKind::cubic, .125);
+			double work = 0, last = 0;
+			for (int k = 0; k < 100; ++k) {
+				s.runWithWalls(1);
+				last = s.walls[0].force[1] * .5 * s.control.dt, work += last;
+			}
+			const Energies& e = s.points.energies;
+			EXPECT_GT(e.kinetic, 1);
+			EXPECT_NEAR(e.walls, work - .5 * last, 1e-10 * e.kinetic);
+			EXPECT_NEAR(e.total(), 0, .02 * e.kinetic);
+		}
+}
 
 } // namespace

@@ -69,6 +69,19 @@ e = energies()
 check('PIC takes energy', e['mpmDamping'] > .1*start, e)
 near('PIC: balance', O.energy.total()/start, 1, 2e-3)
 
+# ---- the filter takes what fades in the steps that it has been on for, whenever it is switched on ------------------------
+ids, grid = block(region=((0, 0), (1, 1)), spacing=.125, courant=.2)
+for k, i in enumerate(ids): O.bodies[i].state.vel = (numpy.sin(7*k*k), numpy.sin(3*k*k + 1), 0)
+O.trackEnergy = True
+O.run(200, True)
+for what in 'switched on', 'switched on again':
+	grid.filterTime, kinetic, before = 40*O.dt, O.energy['mpmKinetic'], O.energy['mpmDamping']
+	O.run(1, True)
+	taken = 2*(O.energy['mpmDamping'] - before)  # a balance has half of the work of the step before it, and half of that after it
+	check(what + ': the filter takes what fades in a step', 0 < taken < 2/40*kinetic, (taken, kinetic))
+	grid.filterTime = 0
+	O.run(200, True)
+
 # ---- a body whose motion is prescribed does work -----------------------------------------------------------------------
 ids, grid = block(region=((0, 0), (2, .5)), spacing=.0625, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')], courant=.2)
 O.trackEnergy = True

@@ -64,19 +64,27 @@ template <class S, class Shape> void MpmSolver<S, Shape>::correct(NodeVector<dim
 	subtractRoundTrip(v, trip);
 }
 
+/* From the momentum that points bring to the nodes to velocities; the walls' reactions have `rate` times what walls take of it added. Returns their
+work on the walls in the step. */
+template <class S, class Shape> double MpmSolver<S, Shape>::reflect(NodeVector<dim>& v, bool moving, double rate)
+{
+	m_band.keepMomentum(v);
+	fromMomentum(v, moving);
+	const std::vector<Wall> before = m_walls;
+	m_band.addTaken(m_walls, v, rate);
+	double work = 0;
+	for (std::size_t k = 0; k < before.size(); ++k)
+		for (std::size_t d = 0; d < 3; ++d)
+			work += (m_walls[k].force[d] - before[k].force[d]) * m_walls[k].velocity[d] * m_control.dt;
+	return work;
+}
+
 /* Between the update of the nodes and step 3. The walls' reactions were those of a. */
 template <class S, class Shape> void MpmSolver<S, Shape>::correctAccelerations()
 {
 	NodeVector<dim>& trip = m_velocity;
 	spreadVelocities(&m_force, trip);
-	m_band.keepMomentum(trip);
-	fromMomentum(trip, false);
-	const std::vector<Wall> before = m_walls;
-	m_band.subtractReactions(m_walls, trip, m_control.dt);
-	m_correctionWork = 0;
-	for (std::size_t k = 0; k < before.size(); ++k)
-		for (std::size_t d = 0; d < 3; ++d)
-			m_correctionWork += (m_walls[k].force[d] - before[k].force[d]) * m_walls[k].velocity[d] * m_control.dt;
+	m_correctionWork = reflect(trip, false, -1 / m_control.dt);
 	subtractRoundTrip(m_force, trip);
 	if (m_control.flip < 1) correct(m_momentum, trip, true);
 }
@@ -89,14 +97,17 @@ template <class S, class Shape> void MpmSolver<S, Shape>::correctVelocities()
 	forEachTile([this](std::size_t t) { gridToPoints<false>(t, 1); });
 }
 
-/* Velocities that the grid does not see, (1 - S S+)^2 v_p (XPIC(2): Hammerquist & Nairn, CMAME 318 (2017) 724), less a part of them. */
+/* Velocities that the grid does not see, (1 - S S+)^2 v_p (XPIC(2): Hammerquist & Nairn, CMAME 318 (2017) 724), less a part of them. At a wall
+that takes momentum, which is in its reaction. */
 template <class S, class Shape> void MpmSolver<S, Shape>::filterVelocities()
 {
-	const double    before = m_control.trackEnergy ? kineticEnergy() : 0;
+	const double    before = m_control.trackEnergy ? kineticEnergy() : 0, rate = m_control.filter / m_control.dt;
 	NodeVector<dim> seen, trip;
 	spreadVelocities(nullptr, seen);
-	fromMomentum(seen);
-	correct(seen, trip, true);
+	double work = reflect(seen, true, rate);
+	spreadVelocities(&seen, trip);
+	work += reflect(trip, true, -rate);
+	subtractRoundTrip(seen, trip);
 	forEachTile([&](std::size_t t) {
 		const Tile& tile = m_grid.tiles()[t];
 		Patch       v[dim];
@@ -110,8 +121,9 @@ template <class S, class Shape> void MpmSolver<S, Shape>::filterVelocities()
 		}
 	});
 	if (!m_control.trackEnergy) return;
-	const double lost = before - kineticEnergy();
-	m_points.energies.damping += .5 * lost, m_points.upcoming.damping += .5 * lost;
+	const double lost = before - kineticEnergy() - work;
+	for (Energies* energies : { &m_points.energies, &m_points.upcoming })
+		energies->damping += .5 * lost, energies->walls += .5 * work;
 }
 
 } // namespace yade::mpm

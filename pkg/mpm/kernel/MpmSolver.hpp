@@ -187,6 +187,7 @@ private:
 	void        spreadVelocities(const NodeVector<dim>* v, NodeVector<dim>& momentum);
 	void        spreadTileVelocities(const Tile& tile, const NodeVector<dim>* v, NodeVector<dim>& momentum) const;
 	void        subtractRoundTrip(NodeVector<dim>& v, const NodeVector<dim>& trip) const;
+	double      reflect(NodeVector<dim>& v, bool moving, double rate);
 	void        correct(NodeVector<dim>& v, NodeVector<dim>& trip, bool moving);
 	void        correctAccelerations();
 	void        correctVelocities();

@@ -68,10 +68,10 @@ public:
 			for (int d = 0; d < dim; ++d)
 				r.momentum[d] = momentum[d][r.node];
 	}
-	/* ... and the velocities that come of it: what the walls have given to it is taken off their reactions over dt (doc/method.md). */
-	void subtractReactions(std::vector<Wall>& walls, const NodeVector<dim>& velocity, double dt) const
+	/* ... and the velocities that come of it: `rate` times what the walls have taken of it is added to their reactions (doc/method.md). */
+	void addTaken(std::vector<Wall>& walls, const NodeVector<dim>& velocity, double rate) const
 	{
-		addToWalls(walls, [&](const ReactionNode& r, int d) { return (r.mass[d] * velocity[d][r.node] - r.momentum[d]) / dt; });
+		addToWalls(walls, [&](const ReactionNode& r, int d) { return rate * (r.momentum[d] - r.mass[d] * velocity[d][r.node]); });
 	}
 	/* Folds a momentum with the masses that fold() has met. */
 	void foldMomentum(const std::vector<Wall>& walls, const NodeMass<dim>& mass, NodeVector<dim>& momentum) const
