@@ -106,7 +106,7 @@ template <class S, class Shape> double MpmSolver<S, Shape>::acousticTimeStep(Sch
 	Column trip(dim * nodes);
 	auto   massFactor = [&](const Column& x, Column& y) { // Q x or (2 - Q)^2 Q x
                 smoothing(x, y);
-                for (int k = 0; fullMass && k < 2; ++k) {
+                for (int k = 0; fullMass && scheme == Scheme::musl && k < 2; ++k) {
 			  smoothing(y, trip);
 			  for (std::size_t i = 0; i < y.size(); ++i)
                                 y[i] = 2 * y[i] - trip[i];
