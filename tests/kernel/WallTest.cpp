@@ -148,6 +148,7 @@ TEST(WallTest, BalanceOfMomentumInEveryStep)
 					for (int k = 0; k < steps; ++k) {
 						const auto before = s.momentum();
 						s.control.filter  = k % 3 == 2 ? .2 : 0;
+						s.control.flip    = k % 4 == 1 ? .7 : 1;
 						s.step();
 						const auto after = s.momentum();
 						for (std::size_t d = 0; d < std::size_t(dim); ++d) {

@@ -93,10 +93,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::keepMotion()
 {
 	Tracking& T = m_tracking;
 	T.change    = m_force;
-	T.start     = m_momentum;
-	for (int d = 0; d < dim; ++d)
-		for (std::size_t i = 0; i < m_mass.size(); ++i)
-			T.start[d][i] -= m_force[d][i];
+	T.start     = startOfStep();
 	T.velocity.assign(m_points.velocity.begin(), m_points.velocity.begin() + dim);
 	m_band.unfold(m_walls, T.damping, false);
 }
@@ -159,6 +156,7 @@ template <class S, class Shape> void MpmSolver<S, Shape>::trackWork()
 	for (const Energies& tile : halfWork)
 		work.add(tile);
 	if (full) work.walls += .5 * m_correctionWork;
+	work.walls += .5 * m_picWork, work.damping -= .5 * m_picWork;
 	m_points.energies.add(m_points.upcoming);
 	m_points.energies.add(work); // half of the step's work until its start ...
 	m_points.upcoming = work;    // ... and half of it after

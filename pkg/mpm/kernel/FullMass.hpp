@@ -64,12 +64,10 @@ template <class S, class Shape> void MpmSolver<S, Shape>::correct(NodeVector<dim
 	subtractRoundTrip(v, trip);
 }
 
-/* From the momentum that points bring to the nodes to velocities; the walls' reactions have `rate` times what walls take of it added. Returns their
-work on the walls in the step. */
-template <class S, class Shape> double MpmSolver<S, Shape>::reflect(NodeVector<dim>& v, bool moving, double rate)
+/* Adds to the walls' reactions `rate` times what they take of the momentum that the points have brought to the nodes, kept before folding, where
+it makes velocities v. Returns the work on the walls in the step. */
+template <class S, class Shape> double MpmSolver<S, Shape>::addTaken(const NodeVector<dim>& v, double rate)
 {
-	m_band.keepMomentum(v);
-	fromMomentum(v, moving);
 	const std::vector<Wall> before = m_walls;
 	m_band.addTaken(m_walls, v, rate);
 	double work = 0;
@@ -78,15 +76,26 @@ template <class S, class Shape> double MpmSolver<S, Shape>::reflect(NodeVector<d
 			work += (m_walls[k].force[d] - before[k].force[d]) * m_walls[k].velocity[d] * m_control.dt;
 	return work;
 }
+/* From such momentum to velocities, with its part in the reactions. */
+template <class S, class Shape> double MpmSolver<S, Shape>::reflect(NodeVector<dim>& v, bool moving, double rate)
+{
+	m_band.keepMomentum(v);
+	fromMomentum(v, moving);
+	return addTaken(v, rate);
+}
 
 /* Between the update of the nodes and step 3. The walls' reactions were those of a. */
 template <class S, class Shape> void MpmSolver<S, Shape>::correctAccelerations()
 {
 	NodeVector<dim>& trip = m_velocity;
 	spreadVelocities(&m_force, trip);
-	m_correctionWork = reflect(trip, false, -1 / m_control.dt);
+	const double flip = m_control.flip, over = 1 / m_control.dt;
+	m_correctionWork = reflect(trip, false, -flip * over);
 	subtractRoundTrip(m_force, trip);
-	if (m_control.flip < 1) correct(m_momentum, trip, true);
+	if (flip == 1) return;
+	spreadVelocities(&m_momentum, trip);
+	m_picWork += reflect(trip, true, -(1 - flip) * over);
+	subtractRoundTrip(m_momentum, trip);
 }
 /* After step 4; the points' displacements are made anew. */
 template <class S, class Shape> void MpmSolver<S, Shape>::correctVelocities()

@@ -63,7 +63,10 @@ public:
 		if (energy) keepSums();
 		lap(control.scheme == Scheme::usf ? "points to nodes, stress" : "stress, points to nodes");
 		const bool full = correctsMass(control);
+		const bool pic  = control.flip < 1;
+		if (pic) m_band.keepMomentum(m_momentum);
 		updateNodes();
+		m_picWork                  = pic ? addTaken(startOfStep(), (1 - control.flip) / control.dt) : 0;
 		const double kineticBefore = energy ? kineticEnergy() : 0;
 		if (energy) keepMotion();
 		if (full) correctAccelerations();
@@ -187,12 +190,13 @@ private:
 	void        spreadVelocities(const NodeVector<dim>* v, NodeVector<dim>& momentum);
 	void        spreadTileVelocities(const Tile& tile, const NodeVector<dim>* v, NodeVector<dim>& momentum) const;
 	void        subtractRoundTrip(NodeVector<dim>& v, const NodeVector<dim>& trip) const;
+	double      addTaken(const NodeVector<dim>& v, double rate);
 	double      reflect(NodeVector<dim>& v, bool moving, double rate);
 	void        correct(NodeVector<dim>& v, NodeVector<dim>& trip, bool moving);
 	void        correctAccelerations();
 	void        correctVelocities();
 	void        filterVelocities();
-	double      m_correctionWork = 0; // of moving walls, by what correctAccelerations() adds to their reactions
+	double      m_correctionWork = 0, m_picWork = 0; // on moving walls, by what the full mass and PIC add to their reactions
 
 	struct StressWork;
 	struct Tracking {                              // empty unless energies are tracked
@@ -654,6 +658,15 @@ private:
 		});
 		m_band.unfold(m_walls, m_momentum, true);
 		m_band.unfold(m_walls, m_force, false);
+	}
+	/* Nodal velocities before the update. */
+	NodeVector<dim> startOfStep() const
+	{
+		NodeVector<dim> v = m_momentum;
+		for (int d = 0; d < dim; ++d)
+			for (std::size_t i = 0; i < m_mass.size(); ++i)
+				v[d][i] -= m_force[d][i];
+		return v;
 	}
 	double        leastMass() const { return m_leastMass; }
 	static double inverseOf(double mass, double least) { return mass > least ? 1 / mass : 0; }
