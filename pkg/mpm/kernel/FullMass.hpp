@@ -13,8 +13,8 @@ in 1 - Q, Q^-1 = 2 - Q:
 
   v_p += S (2 - Q) dt a,    v = (2 - Q) S+ v_p,    x_p += dt S v, and stress with v,
 
-one way to the points and back more for each 2 - Q. Squares of frequencies, which lumping and mapping make smaller by Q^2 each as far as the
-error goes, are off by (1 - Q)^2 alone: by order four in the cell size, not two. Q is self-adjoint, so that the step stays a leapfrog without
+one way to the points and back more for each 2 - Q. Frequencies, Q of the true ones with the lumped mass, become Q (2 - Q) = 1 - (1 - Q)^2 of
+them: off by order four in the cell size, not two. Q is self-adjoint, so that the step stays a leapfrog without
 dissipation. With flip < 1 PIC's part is S (2 - Q) (S+ v_p + dt a), FMPM(2). */
 
 /* (m v)_i = sum N_ip m_p v_p, of the points' velocities or, with v, of those that the nodal field v has there. */
