@@ -234,13 +234,10 @@ void drift(const char* what, Analysis analysis, Method method, int cells, double
                 s.control.filter = every && ++k % every == 0 ? -std::expm1(-double(every) * s.control.dt / (filterTime * 2 / c)) : 0;
                 s.step();
 	};
-	auto energy = [&] { // in plane strain the stress normal to the plane is nu tr sigma: (1 + nu)/2E (s:s - nu (tr s)^2)
+	auto energy = [&] {
 		double sum = s.kineticEnergy();
-		for (std::size_t p = 0; p < s.points.count(); ++p) {
-			const auto&  S = s.points.stress;
-			const double x = S[0][p], y = S.size() > 1 ? S[1][p] : 0, xy = S.size() > 1 ? S.back()[p] : 0;
-			sum += .5 * s.points.volume0[p] * (1 + poisson) / young * (x * x + y * y + 2 * xy * xy - poisson * (x + y) * (x + y));
-		}
+		for (std::size_t p = 0; p < s.points.count(); ++p)
+			sum += s.points.volume0[p] * storedEnergy(analysis, s.laws[0], s.points, p).elastic;
 		return sum;
 	};
 	auto centre = [&](std::size_t d) {
