@@ -185,14 +185,16 @@ private:
 	[[gnu::noinline]] void    takeMeanPressure(
 		   Block block, const WeightLanes& w, const Patch& mean, const Lanes& r, Lanes (&fp)[dim], Lanes (&Vs)[dim][dim]) const;
 
-	// FullMass.hpp
+	// RoundTrip.hpp
+	void   spreadVelocities(const NodeVector<dim>* v, NodeVector<dim>& momentum);
+	void   spreadTileVelocities(const Tile& tile, const NodeVector<dim>* v, NodeVector<dim>& momentum) const;
+	void   subtractRoundTrip(NodeVector<dim>& v, const NodeVector<dim>& trip) const;
+	void   correct(NodeVector<dim>& v, NodeVector<dim>& trip, bool moving);
+	double addTaken(const NodeVector<dim>& v, double rate);
+	double reflect(NodeVector<dim>& v, bool moving, double rate);
+
+	// FullMass.hpp, Filter.hpp
 	static bool correctsMass(const StepControl& control) { return control.fullMass && control.scheme == Scheme::musl; }
-	void        spreadVelocities(const NodeVector<dim>* v, NodeVector<dim>& momentum);
-	void        spreadTileVelocities(const Tile& tile, const NodeVector<dim>* v, NodeVector<dim>& momentum) const;
-	void        subtractRoundTrip(NodeVector<dim>& v, const NodeVector<dim>& trip) const;
-	double      addTaken(const NodeVector<dim>& v, double rate);
-	double      reflect(NodeVector<dim>& v, bool moving, double rate);
-	void        correct(NodeVector<dim>& v, NodeVector<dim>& trip, bool moving);
 	void        correctAccelerations();
 	void        correctVelocities();
 	void        filterVelocities();
@@ -1165,6 +1167,8 @@ private:
 } // namespace yade::mpm
 
 #include "EnergyBalance.hpp"
+#include "Filter.hpp"
 #include "FullMass.hpp"
 #include "MeanDilatation.hpp"
+#include "RoundTrip.hpp"
 #include "StableStep.hpp"
