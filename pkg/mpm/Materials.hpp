@@ -2,7 +2,7 @@
 #pragma once
 
 #include "AsWritten.hpp"
-#include "kernel/Law.hpp"
+#include "kernel/laws/Law.hpp"
 #include <pkg/common/ElastMat.hpp>
 
 namespace yade {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "kernel/Solver.hpp"
+#include "kernel/solver/Solver.hpp"
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Material.hpp>

@@ -4,7 +4,7 @@
 #include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
 #include "../../tests/kernel/WeightColumn.hpp"
-#include "kernel/ShapeFunction.hpp"
+#include "kernel/transfer/ShapeFunction.hpp"
 #include "kernel/TileGrid.hpp"
 #include <cstdio>
 #include <fstream>

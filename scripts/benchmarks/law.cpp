@@ -6,8 +6,8 @@
 //
 //	mpm_law_benchmark [--benchmark_filter=...]
 //	mpm_law_benchmark count LAW dx alike|mixed|alone UPDATES   does so many updates of a point, for callgrind
-#include "kernel/BoucWen.hpp"
-#include "kernel/LawLanes.hpp"
+#include "kernel/laws/BoucWen.hpp"
+#include "kernel/laws/LawLanes.hpp"
 #include <benchmark/benchmark.h>
 #include <cstring>
 #include <iostream>

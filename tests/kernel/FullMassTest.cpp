@@ -3,7 +3,7 @@
 in the manufactured solutions, and the balance of energies. Momentum, patches, threads and walls are in the tests of every method
 (SolverInvariantsTest, PatchTest, WallTest), frequencies in WaveTest, the stable step in StableStepTest. */
 #include "VibratingBar.hpp"
-#include "kernel/ShapeFunction.hpp"
+#include "kernel/transfer/ShapeFunction.hpp"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Laws in lanes: eight points on random paths of their own, in sub-steps and iterations of their own, are what each of them is
 alone, to rounding, for every law and option, stress state, instruction set, small and large strain. */
-#include "kernel/LawLanes.hpp"
+#include "kernel/laws/LawLanes.hpp"
 #include "LawPoint.hpp"
 #include "kernel/Kinematics.hpp"
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "kernel/Law.hpp"
+#include "kernel/laws/Law.hpp"
 #include <functional>
 #include <random>
 #include <vector>

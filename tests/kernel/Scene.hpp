@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/Kinematics.hpp"
-#include "kernel/Solver.hpp"
+#include "kernel/solver/Solver.hpp"
 #include <functional>
 
 namespace yade::mpm {

@@ -9,7 +9,7 @@ V4, quadrature of the internal force (theme of Steffen, Kirby & Berzins, IJNME 7
 under uniform unit stress; the internal force at an inner node, sum over the points of s dN, should be 0. Greatest value
 over the offsets of the lattice, from an independent NumPy implementation: three digits and a coarse sweep of the
 offsets, hence 1 %. */
-#include "kernel/ShapeFunction.hpp"
+#include "kernel/transfer/ShapeFunction.hpp"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>

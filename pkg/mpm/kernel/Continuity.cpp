@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Continuity.hpp"
-#include "Solver.hpp"
+#include "solver/Solver.hpp"
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Geometry.hpp"
-#include "Law.hpp"
+#include "laws/Law.hpp"
 #include "Points.hpp"
 
 namespace yade::mpm {

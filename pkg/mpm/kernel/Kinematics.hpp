@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "StressState.hpp"
+#include "laws/StressState.hpp"
 #include <Eigen/Dense>
 
 namespace yade::mpm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Law.hpp"
+#include "laws/Law.hpp"
 #include <array>
 #include <vector>
 

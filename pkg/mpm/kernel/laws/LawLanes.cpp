@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "LawLanes.hpp"
-#include "Kinematics.hpp"
+#include "../Kinematics.hpp"
 #include "UpdateStress.hpp"
 
 namespace yade::mpm {

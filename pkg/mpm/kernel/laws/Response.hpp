@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Reals.hpp"
+#include "../Reals.hpp"
 
 namespace yade::mpm {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "InstructionSet.hpp"
-#include "Lanes.hpp"
+#include "../InstructionSet.hpp"
+#include "../Lanes.hpp"
 #include "Law.hpp"
 
 namespace yade::mpm {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Hardening.hpp"
-#include "Reals.hpp"
+#include "../Reals.hpp"
 #include "StressState.hpp"
 
 namespace yade::mpm {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Geometry.hpp"
-#include "Law.hpp"
-#include "Points.hpp"
+#include "../Geometry.hpp"
+#include "../laws/Law.hpp"
+#include "../Points.hpp"
 #include <memory>
 
 namespace yade::mpm {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "InstructionSet.hpp"
-#include "Kinematics.hpp"
+#include "../InstructionSet.hpp"
+#include "../Kinematics.hpp"
 #include "Lanczos.hpp"
-#include "Lanes.hpp"
-#include "LawLanes.hpp"
-#include "ShapeFunction.hpp"
+#include "../Lanes.hpp"
+#include "../laws/LawLanes.hpp"
+#include "../transfer/ShapeFunction.hpp"
 #include "Solver.hpp"
-#include "WallBand.hpp"
+#include "../boundary/WallMirror.hpp"
 #include <cstring>
 
 namespace yade::mpm {
@@ -1167,8 +1167,8 @@ private:
 } // namespace yade::mpm
 
 #include "EnergyBalance.hpp"
-#include "Filter.hpp"
-#include "FullMass.hpp"
+#include "NullSpaceFilter.hpp"
+#include "MassCorrection.hpp"
 #include "MeanDilatation.hpp"
 #include "RoundTrip.hpp"
 #include "StableStep.hpp"

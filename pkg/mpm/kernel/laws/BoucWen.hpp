@@ -3,7 +3,7 @@
 
 #include "Hardening.hpp"
 #include "J2.hpp"
-#include "Reals.hpp"
+#include "../Reals.hpp"
 #include "StressState.hpp"
 #include <algorithm>
 #include <limits>
