@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "kernel/Version.hpp"
 #include "kernel/solver/Solver.hpp"
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -112,6 +113,7 @@ public:
 		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
+		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
 		.def("__len__", &MpmPoints::count)
 		.def("__repr__", &MpmPoints::text)
 		.def("__str__", &MpmPoints::text)

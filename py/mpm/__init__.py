@@ -16,6 +16,7 @@ materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
 Units are SI, tension is positive.
 """
 import yade
+import yade.wrapper
 
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
@@ -24,6 +25,7 @@ from .points import array, criticalTimeStep, fill
 from .surface import readStl
 from .view import color
 
+__version__ = yade.wrapper.MpmPoints.version()
 __all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
 
 

@@ -69,6 +69,11 @@ check('O.engines shows it', repr(grid) in repr([ForceResetter(), grid]))
 equal('dir(mpm) is what there is to call', sorted(dir(mpm)), sorted(mpm.__all__))
 for name in mpm.__all__: check('the docstring of mpm names %s' % name, re.search(r'\b%s\b' % name, mpm.__doc__))
 
+# one version, that of the CMakeLists.txt at the root
+with open(os.path.join(os.path.dirname(os.path.realpath(sys.argv[0])), '../../CMakeLists.txt')) as file:
+	declared = re.search(r'project\(yade-mpm VERSION (\S+)', file.read()).group(1)
+equal('mpm.__version__', mpm.__version__, declared)
+
 # the scene of the docstring, as printed
 scene = [line[1:] for line in mpm.__doc__.splitlines() if line.startswith('\t')]
 check('the scene has about ten lines', 6 <= len(scene) <= 12, scene)
