@@ -22,9 +22,9 @@ The same holds for a point and a fixed wall, whose image behind the wall it is t
 from it. So are points of a law that lets go by itself in tension (Drucker-Prager). */
 class Continuity {
 public:
-	/* Throws StepFailure where a gap is wider than this [m]. Neighbours are looked for where none are known, and where there are
+	/* Throws StepFailure where a gap is wider than `largest` [m]. Neighbours are looked for where none are known, and where there are
 	points that have not been seen before; their deformation then counts as right. */
-	void check(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls, double cellSize, double widest, double time);
+	void check(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls, double cellSize, double largest, double time);
 	/* Points or walls have been put elsewhere by hand. */
 	void forget() { memory = {}; }
 
