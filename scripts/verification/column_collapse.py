@@ -12,7 +12,7 @@ from report import ROOT, Report
 import numpy as np
 
 LEVELS = 10, 16, 24  # points along the radius
-report = Report('column-collapse', 'height over radius', 'angle [deg]', *('run-out, %d points' % n for n in LEVELS), 'scatter of sectors', 'for ever finer points', 'measured with grains', 'height, %d points' % LEVELS[-1])
+report = Report('column-collapse', 'a', 'angle', *('%d points' % n for n in LEVELS), 'scatter', 'extrapolated', 'experiment', 'height, %d' % LEVELS[-1])
 for angle in 25.4, 30:
 	for aspect in .5, 1, 2:
 		found = []

@@ -11,7 +11,7 @@ from yade import mpm, pack
 from yade import *
 
 CELL = .05
-report = Report('disks', 'shape', 'dt [s]', 'momentum over that of one disk', 'error of the energy balance over the energy', 'kinetic energy at t = 3.5 s over the start')
+report = Report('disks', 'shape', 'dt [s]', "momentum over one disk's", 'energy error', 'kinetic energy, 3.5 s over 0 s')
 figure, axes = plt.subplots(1, 2, figsize=(12, 4))
 for shape, dt in (('cubic', 1e-3), ('cubic', 5e-4), ('quadratic', 1e-3), ('linear', 1e-3)):
 	O.reset()

@@ -18,7 +18,7 @@ off = max(abs(a - b).max()/abs(b).max() for a, b in zip(radial('sphere', YIELD, 
 print('the radial solution and that of Hill for the sphere: %.1e of the displacement' % off)
 if not off < 1e-4: sys.exit('the radial solution is wrong')
 
-report = Report('thick-walled', 'case', 'analysis', 'cells to the wall\'s thickness', 'points', 'elastic: displacement', 'stress', 'elastoplastic: displacement', 'stress')
+report = Report('thick-walled', 'case', 'analysis', 'cells', 'points', 'elastic: displacement', 'stress', 'elastoplastic: displacement', 'stress')
 figure, axes = plt.subplots(1, 2, figsize=(11, 4))
 # bounds of the finest level, in the order of the columns
 for kind, analysis, levels, bounds in (('cylinder', 'axisymmetric', (8, 16, 32), (.003, .005, .003, .005)), ('cylinder', 'planeStrain', (8, 16, 32), (.005, .006, .012, .03)),

@@ -44,7 +44,7 @@ def vibrate(shape, cells, scheme, v0):
 	return abs(history[:, 1] - amplitude*np.cos(OMEGA*history[:, 0])).max()/amplitude, energy()/start, history
 
 
-report = Report('vibrating-bar', 'v0', 'shape, cells', 'scheme', 'velocity error', 'published or computed elsewhere', 'energy, end over start', 'elsewhere')
+report = Report('vibrating-bar', 'v0', 'shape, cells', 'scheme', 'velocity error', 'elsewhere', 'energy ratio', 'elsewhere')
 # (v0, shape, cells, scheme, error and energy of an independent implementation; None: no bound but the one named)
 for v0, shape, cells, scheme, error, energy in (
 		(.1, 'linear', 16, 'USF', 7.28e-2, 1.00078), (.1, 'linear', 16, 'USL', 8.49e-2, .99810), (.1, 'linear', 16, 'MUSL', 8.49e-2, .99920),
