@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The pages of the manual that come from the running program: classes, functions, gallery. Run by scripts/doc:
+"""Generates the pages of the manual on classes, functions and examples from the running program. scripts/doc runs it:
 
 	scripts/yade-mpm -n -x doc/generate.py <folder>
 """
@@ -24,8 +24,18 @@ def text(doc):
 	parts = re.split(r'(:yref:`[^`]*`|``[^`]*``)', doc)
 	for k, part in enumerate(parts):
 		if part.startswith(':yref:'): parts[k] = part.replace(':yref:', ':py:obj:')
-		elif not part.startswith('``'): parts[k] = re.sub(r'([*|\\]|_(?=\W|$))', r'\\\1', part)
+		elif not part.startswith('``'): parts[k] = linked(re.sub(r'([*|\\]|_(?=\W|$))', r'\\\1', part), ':doc:`/%s`')
 	return ''.join(parts)
+
+
+def linked(text, link):
+	"""doc/<page>.md and doc/<folder> of a docstring as links to pages of the manual."""
+	def page(found):
+		name = found.group(1)
+		for candidate in name, name + '/README':
+			if os.path.exists(os.path.join(root, 'doc', candidate + '.md')): return link % candidate
+		return found.group(0)
+	return re.sub(r'\bdoc/([a-z][a-z/-]*[a-z])(?:\.md)?\b', page, text)
 
 
 def role(doc, name):
@@ -43,8 +53,32 @@ def own(module):
 	return [getattr(module, n) for n in names]
 
 
+def first(doc):
+	"""First sentence of an attribute's docstring, without YADE's roles."""
+	plain = re.sub(r':y[a-z]+:`([^`]*)`', r'\1', re.sub(r' ?:y(attrtype|attrflags|default):`[^`]*`', '', doc or ''))
+	plain = re.sub(r':[a-z]+:`([^`]*)`', r'\1', plain).replace('|ycomp|', '').replace('|yupdate|', '')
+	return text(re.split(r'(?<=[.\]])\s', ' '.join(plain.split()))[0])
+
+
+def inherited(cls):
+	"""Attributes of YADE's own classes above this one, the nearest first, as a list of definitions."""
+	lines = []
+	for base in cls.__mro__[1:]:
+		if not base.__module__.startswith('yade') or base.__name__ == 'Serializable': break
+		for name, item in sorted(vars(base).items()):
+			if name.startswith('_') or name.startswith('disp') or not isinstance(item, property): continue
+			kind, default = role(item.__doc__, 'yattrtype'), role(item.__doc__, 'ydefault')
+			if not kind: continue
+			default = re.sub(r'^\(\(void\)"[^"]*",(.*)\)$', r'\1', default)
+			lines += ['``%s``: *%s*' % (name, kind) + (', default ``%s``' % default if default else ''), indent('%s (%s)' % (first(item.__doc__), base.__name__)), '']
+	if issubclass(cls, yade.wrapper.Material):
+		missing = [name for name in ('young', 'poisson', 'density', 'frictionAngle') if not any(line.startswith('``%s``' % name) for line in lines)]
+		if missing: sys.exit('%s: the manual would not list %s' % (cls.__name__, ', '.join(missing)))
+	return ['**Inherited attributes**', ''] + lines if lines else []
+
+
 def classes():
-	page = ['Classes', '=======', '', 'Made from the classes of the running program; ``help(MpmEngine)`` at the prompt says the same.', '']
+	page = ['Classes', '=======', '', 'This page lists the classes of the running program with all attributes. ``help(MpmEngine)`` at the prompt shows the same text.', '']
 	for cls in sorted(own(yade.wrapper), key=lambda c: (c.__name__ not in ('MpmEngine', 'MpmWall'), c.__name__)):
 		base = cls.__bases__[0].__name__
 		page += [cls.__name__, '-'*len(cls.__name__), '', '.. py:class:: %s(**attributes)' % cls.__name__, '', indent('Derived from ``%s``.' % base), '', indent(text(cls.__doc__)), '']
@@ -57,6 +91,7 @@ def classes():
 			kind, default = role(item.__doc__, 'yattrtype'), role(item.__doc__, 'ydefault')
 			page += [indent('.. py:attribute:: %s' % name)] + ([indent('   :type: %s' % kind)] if kind else []) + ['']
 			page += [indent(text(item.__doc__) + (' Default: ``%s``.' % default if default else ''), ' '*6), '']
+		page += [indent('\n'.join(inherited(cls))), '']
 	return '\n'.join(page)
 
 
@@ -65,7 +100,7 @@ def python():
 	for name in mpm.__all__:
 		item = getattr(mpm, name)
 		kind, signature = ('function', str(inspect.signature(item))) if inspect.isfunction(item) else ('class', '')
-		page += ['.. py:%s:: %s%s' % (kind, name, signature), '', indent(re.sub(':yref:', ':py:obj:', inspect.getdoc(item))), '']
+		page += ['.. py:%s:: %s%s' % (kind, name, signature), '', indent(linked(re.sub(':yref:', ':py:obj:', inspect.getdoc(item)), ':doc:`/%s`')), '']
 	return '\n'.join(page)
 
 
@@ -82,7 +117,7 @@ def gallery():
 		paragraph = lambda part: '\n'.join(line.strip() for line in part.splitlines())
 		rest = [paragraph(part) for part in doc.split('\n\n')[1:] if not part.strip().startswith('scripts/')]
 		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands + ['```', ''] + ['![%s](%s)' % (name, pictures[0]), '']
-		page += ['\n\n'.join(rest).replace('*', '\\*'), '']
+		page += [linked('\n\n'.join(rest).replace('*', '\\*'), '[this page](%s.md)'), '']
 	return '\n'.join(page)
 
 
