@@ -49,14 +49,16 @@ def plot(folder):
     for k, case in enumerate(cases):
         for count in threads:
             mine = [(int(row['points']), float(row['rate'])) for row in rows if (int(row['dimension']), row['shape'], row['law'], int(row['threads'])) == (*case, count)]
-            style = dict(color='C%d' % k, marker='o', ms=3, ls='-' if count == 1 else '--', label='%dD %s, %s' % case if count == 1 else None)
+            style = dict(color='C%d' % k, marker='o', ms=3, ls='-' if count == 1 else '--')
             axes[0].loglog([n for n, rate in mine], [n/rate for n, rate in mine], **style)
             axes[1].semilogx([n for n, rate in mine], [rate/1e6 for n, rate in mine], **style)
     axes[0].set(xlabel='points', ylabel='time of a step [s]')
-    axes[1].set(xlabel='points', ylabel='million points x steps / s (dashed: 2 threads)', ylim=(0, None))
-    axes[0].legend(fontsize=7)
+    axes[1].set(xlabel='points', ylabel='million points x steps a second', ylim=(0, None))
     for ax in axes: ax.grid(alpha=.3)
-    figure.tight_layout()
+    handles = [plt.Line2D([], [], color='C%d' % k, label='%dD %s, %s' % case) for k, case in enumerate(cases)]
+    handles += [plt.Line2D([], [], color='k', ls=style, label=name) for style, name in (('-', 'one thread'), ('--', 'two threads'))]
+    figure.tight_layout(rect=(0, .14, 1, 1))
+    figure.legend(handles=handles, fontsize=8, ncol=4, loc='lower center')
     figure.savefig(os.path.join(folder, 'throughput.png'), dpi=90)
 
 

@@ -17,6 +17,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 from yade import mpm
 from yade import *
 
@@ -25,7 +26,7 @@ DATA = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', '
 
 
 def run(solid, spacing):
-	"""Rows (load on the whole beam, displacement of the end), and the beam at the end."""
+	"""Return rows (load on the whole beam, displacement of the end); positions, initial positions and stresses of the points."""
 	O.reset()
 	O.materials.append(J2Mat(label='steel', young=210e9, poisson=.3, density=7850, yieldStress=240e6))
 	walls = [MpmWall(normal=(1, 0, 0), kind='fixed')]
@@ -47,7 +48,17 @@ def run(solid, spacing):
 	O.engines = O.engines + [PyRunner(command='sample()', iterPeriod=every)]
 	O.run(100*every + 1, True)
 	print('%s: %d points, %d steps' % ('3D' if solid else 'plane stress', len(beam), O.iter), flush=True)
-	return np.array(rows), mpm.array('position'), mpm.array('vonMises')
+	x = mpm.array('position')
+	return np.array(rows), x, x - mpm.array('displacement'), mpm.array('vonMises')
+
+
+def squares(ax, x, y, values, size, **style):
+	"""Draw each point as a square of its size, without gaps between neighbours."""
+	corners = size/2*np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+	patches = PolyCollection(np.column_stack((x, y))[:, None] + corners, array=values, edgecolors='face', linewidths=.6, **style)
+	ax.add_collection(patches)
+	ax.autoscale_view()
+	return patches
 
 
 def main():
@@ -59,7 +70,7 @@ def main():
 	os.makedirs(options.out, exist_ok=True)
 	with open(DATA) as f: elements = np.array([[float(r['load_N']), float(r['displacement_m'])] for r in csv.DictReader(f) if r['branch'] == '1'])
 
-	(plane, _, _), (solid, x, mises) = (run(dimension == 3, HEIGHT/options.points) for dimension in (2, 3))
+	(plane, *_), (solid, x, start, mises) = (run(dimension == 3, HEIGHT/options.points) for dimension in (2, 3))
 	for load in 10e3, 20e3, 26e3:
 		here, there = (1e3*np.interp(load, rows[:91, 0], rows[:91, 1]) for rows in (solid, plane))
 		print('%2.0f kN: 3D %.3f mm, plane stress %.3f mm (3D %+.2f %%), finite elements %.3f mm (3D %+.2f %%)' % (load/1e3, here, there, 100*(here/there - 1),
@@ -67,20 +78,23 @@ def main():
 	with open(os.path.join(options.out, 'cantilever_3d.csv'), 'w', newline='') as f:
 		csv.writer(f).writerows([['load_N', 'solid_m', 'planeStress_m']] + [(a[0], a[1], b[1]) for a, b in zip(solid, plane)])
 
-	figure = plt.figure(figsize=(12, 4.5))
-	ax = figure.add_axes((.06, .12, .36, .8))
+	figure = plt.figure(figsize=(11, 4.2))
+	ax = figure.add_axes((.06, .13, .36, .8))
 	for rows, style, label in (plane, 'C0', 'plane stress'), (solid, 'C3--', '3D'), (elements, 'k:', 'finite elements, plane stress'):
 		ax.plot(1e3*rows[:, 1], rows[:, 0]/1e3, style, label=label)
 	ax.set(xlabel='displacement of the end [mm]', ylabel='load [kN]', xlim=(0, None), ylim=(0, None))
 	ax.legend()
-	ax = figure.add_axes((.43, .12, .57, .9), projection='3d')
-	both, colour = np.concatenate([x, x*[1, 1, -1]]), np.tile(mises/1e6, 2)
-	dots = ax.scatter(*both[:, [0, 2, 1]].T, c=colour, s=22*(8/options.points)**2, marker='s', cmap='viridis', alpha=1, linewidths=0)
-	ax.set_box_aspect((4, .5, 1), zoom=1.3)
-	ax.view_init(20, -60)
-	ax.set_axis_off()
-	figure.text(.72, .9, 'von Mises stress [MPa] at %.0f kN' % (LOAD/1e3), ha='center')
-	figure.colorbar(dots, cax=figure.add_axes((.55, .12, .34, .03)), orientation='horizontal')
+	ax.grid(alpha=.3)
+	# the layers of points next to the free side and to the upper face; the half that is not modelled is the mirror image
+	spacing, mises = HEIGHT/options.points, mises/1e6
+	side, top = start[:, 2] > THICKNESS/2 - spacing, start[:, 1] > HEIGHT/2 - spacing
+	scale = dict(cmap='viridis', norm=plt.Normalize(0, mises.max()))
+	for k, (layer, across, both, name) in enumerate(((side, 1, (1,), 'y [m]'), (top, 2, (1, -1), 'z [m]'))):
+		ax = figure.add_axes((.5, .62 - .4*k, .38, .26))
+		for sign in both: patches = squares(ax, x[layer, 0], sign*x[layer, across], mises[layer], spacing, **scale)
+		ax.set(aspect='equal', xlabel='x [m]', ylabel=name, xlim=(-.02, LENGTH + .02), title=('free side, z = %g m' % (THICKNESS/2), 'upper face')[k],
+			yticks=((-HEIGHT/2, 0, HEIGHT/2), (-THICKNESS/2, THICKNESS/2))[k])
+	figure.colorbar(patches, cax=figure.add_axes((.91, .2, .015, .68)), label='von Mises stress at %.0f kN [MPa]' % (LOAD/1e3))
 	figure.savefig(os.path.join(options.out, 'cantilever_3d.png'), dpi=110, bbox_inches='tight')
 
 

@@ -66,14 +66,14 @@ def main():
 
 	figure, axes = plt.subplots(len(pictures) + 1, 1, figsize=(8, 9.5), layout='constrained', gridspec_kw=dict(height_ratios=[1]*len(pictures) + [1.7]))
 	for ax, (time, x) in zip(axes, pictures):
-		for side in 1, -1: ax.scatter(side*np.hypot(x[:, 0], x[:, 1])/RADIUS, x[:, 2]/RADIUS, c=began, s=1, cmap='viridis', linewidths=0)
+		for side in 1, -1: ax.scatter(side*np.hypot(x[:, 0], x[:, 1])/RADIUS, x[:, 2]/RADIUS, c=began, s=5, cmap='viridis', linewidths=0)
 		ax.set(aspect='equal', xlim=(-3, 3), ylim=(0, 1.05*options.aspect), ylabel='z/r0')
 		ax.text(-2.9, .8*options.aspect, 't = %.1f sqrt(H/g)' % time)
 		ax.tick_params(labelbottom=ax is axes[-2])
 	axes[-2].set_xlabel('r/r0, all points; colour: radius at the start')
 	time, radius, scatter = np.array(rows)[:, :3].T
 	axes[-1].errorbar(time, radius, scatter, fmt='o-', ms=3, label='front, mean and deviation of six sectors')
-	axes[-1].axhline(1 + published, color='k', ls='--', label='at rest, measured with grains (Lube et al. 2004)')
+	axes[-1].axhline(1 + published, color='k', ls='--', label='at rest, experiments (Lube et al. 2004)')
 	axes[-1].set(xlabel='t/sqrt(H/g)', ylabel='r/r0', ylim=(.9, 1.1*(1 + published)))
 	axes[-1].legend(loc='lower right')
 	figure.savefig(os.path.join(options.out, 'column_collapse.png'), dpi=100)

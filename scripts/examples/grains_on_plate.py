@@ -5,6 +5,7 @@
 
 A plate of 1 x 0.5 x 0.05 m, a soft metal (E = 100 MPa, yield stress 1 MPa, 5 % hardening, 2000 kg/m3), 3D, three layers of points; its
 ends at x = 0 and x = 1 are clamped by prescribed points. Spheres (radius 0.04 m, 2600 kg/m3) in a random loose cloud fall on it.
+Its long edges are free: a sphere can leave the plate over them.
 Leaves grains_on_plate.csv (deflection, plastic strain, energies, contacts over time) and .png.
 """
 import argparse
@@ -17,6 +18,7 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 from yade import mpm
 from yade import *
 
@@ -32,6 +34,15 @@ def cloud(count):
 		new = (random.uniform(.25, .75), random.uniform(.08, WIDTH - .08), HEIGHT + 1.1*RADIUS + 2.1*RADIUS*layer + random.uniform(0, .05)*RADIUS)
 		if all(sum((a - b)**2 for a, b in zip(new, old)) > (2*RADIUS)**2 for old in centres): centres.append(new)
 	return centres
+
+
+def squares(ax, x, y, values, size, **style):
+	"""Draw each point as a square of its size, without gaps between neighbours."""
+	corners = size/2*np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+	patches = PolyCollection(np.column_stack((x, y))[:, None] + corners, array=values, edgecolors='face', linewidths=.6, **style)
+	ax.add_collection(patches)
+	ax.autoscale_view()
+	return patches
 
 
 def main():
@@ -73,21 +84,25 @@ def main():
 		csv.writer(f).writerows([['time_s', 'deflection_m', 'plasticStrain', 'contacts', 'grainsKinetic_J', 'mpmKinetic_J', 'mpmElastic_J', 'mpmDissipation_J']] + rows)
 
 	rows = np.array(rows)
-	figure, (above, below) = plt.subplots(2, 1, figsize=(8, 8), gridspec_kw=dict(height_ratios=[2, 1]))
+	figure, (above, below) = plt.subplots(2, 1, figsize=(8, 8.5), gridspec_kw=dict(height_ratios=[2, 1], hspace=.3))
 	x, strain = mpm.array('position'), mpm.array('plasticStrain')
 	order = np.argsort(-x[:, 1]) # the nearest are drawn last
-	dots = above.scatter(x[order, 0], x[order, 2], c=100*strain[order], s=14, marker='s', cmap='inferno', linewidths=0)
+	dots = squares(above, x[order, 0], x[order, 2], 100*strain[order], SPACING, cmap='inferno')
 	for b in sorted(balls, key=lambda b: -O.bodies[b].state.pos[1]):
 		p = O.bodies[b].state.pos
-		above.add_patch(plt.Circle((p[0], p[2]), RADIUS, facecolor=plt.cm.Blues(.3 + .5*p[1]/WIDTH), edgecolor='k', lw=.5, alpha=.8))
-	above.set(aspect='equal', xlim=(-.05, LENGTH + .05), ylim=(-.25, .5), xlabel='x [m]', ylabel='z [m]', title='%d grains, %d material points, t = %.3f s: plastic strain [%%]' % (len(balls), len(plate), O.time))
-	figure.colorbar(dots, ax=above, shrink=.7)
+		fallen = not 0 < p[1] < WIDTH
+		above.add_patch(plt.Circle((p[0], p[2]), RADIUS, facecolor='.85' if fallen else plt.cm.Blues(.3 + .5*p[1]/WIDTH), edgecolor='k', lw=.5, alpha=.8, ls='--' if fallen else '-'))
+	handles = [plt.Line2D([], [], ls='', marker='o', ms=10, mfc=colour, mec='k', label=name) for colour, name in
+		((plt.cm.Blues(.3), 'grain near y = 0'), (plt.cm.Blues(.8), 'grain near y = %g m' % WIDTH), ('.85', 'grain beyond a free edge of the plate'))]
+	above.legend(handles=handles, fontsize=8, loc='lower left', ncol=1)
+	above.set(aspect='equal', xlim=(-.05, LENGTH + .05), ylim=(-.25, .5), xlabel='x [m]', ylabel='z [m]', title='%d grains, %d material points, t = %.2f s' % (len(balls), len(plate), O.time))
+	figure.colorbar(dots, ax=above, shrink=.7, label='plastic strain of the plate [%]')
 	for column, name in ((4, 'grains, kinetic'), (5, 'plate, kinetic'), (6, 'plate, elastic'), (7, 'plate, heat')): below.plot(1e3*rows[:, 0], rows[:, column], label=name)
 	deflection = below.twinx()
-	deflection.plot(1e3*rows[:, 0], 1e3*rows[:, 1], 'k--')
-	deflection.set_ylabel('deflection at mid-span (dashed) [mm]')
+	line, = deflection.plot(1e3*rows[:, 0], 1e3*rows[:, 1], 'k--', label='deflection (right axis)')
+	deflection.set_ylabel('deflection at mid-span [mm]')
 	below.set(xlabel='time [ms]', ylabel='energy [J]')
-	below.legend(loc='upper right')
+	below.legend(handles=below.get_lines() + [line], fontsize=8, ncol=5, loc='upper center', bbox_to_anchor=(.5, -.2))
 	below.grid(alpha=.3)
 	figure.savefig(os.path.join(options.out, 'grains_on_plate.png'), dpi=130, bbox_inches='tight')
 	print('results in %s' % os.path.abspath(options.out))

@@ -16,8 +16,18 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.collections import PolyCollection
 from yade import mpm, pack
 from yade import *
+
+def squares(ax, x, y, values, size, **style):
+	"""Draw each point as a square of its size, without gaps between neighbours."""
+	corners = size/2*np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+	patches = PolyCollection(np.column_stack((x, y))[:, None] + corners, array=values, edgecolors='face', linewidths=.6, **style)
+	ax.add_collection(patches)
+	ax.autoscale_view()
+	return patches
+
 
 SPACING, LOAD, END = .004, 620e3, 2e-3
 out = sys.argv[1] if len(sys.argv) > 1 else 'out'
@@ -50,7 +60,7 @@ x, stress, strain = mpm.array('position'), mpm.array('stress')[:, 0, 0], mpm.arr
 displacement, load = np.array(curve).T
 figure, axes = plt.subplots(3, 1, figsize=(6, 9.5))
 for ax, (values, name) in zip(axes, ((stress/1e6, 'stress along x [MPa]'), (100*strain, 'plastic strain [%]'))):
-	dots = ax.scatter(x[:, 0], x[:, 1], c=values, s=6, marker='s', linewidths=0)
+	dots = squares(ax, x[:, 0], x[:, 1], values, SPACING)
 	ax.set(aspect='equal', xlabel='x [m]', ylabel='y [m]', title=name)
 	figure.colorbar(dots, ax=ax, shrink=.8)
 axes[2].plot(1e3*displacement, load/1e3)

@@ -71,7 +71,7 @@ def main():
 			left.plot(1e3*rows[:, 0], rows[:, 2], label='E = %g Pa' % young)
 	energies = rows[:, 4:]/rows[0, 4:].sum()
 	right.stackplot(1e3*rows[:, 0], energies.T, labels=['sphere', 'contact', 'block, kinetic', 'block, elastic'])
-	left.set(xlabel='time [ms]', ylabel='velocity of the sphere [m/s]', title='A stiff block gives all back')
+	left.set(xlabel='time [ms]', ylabel='velocity of the sphere [m/s]', title='Velocity, by the modulus of the block')
 	right.set(xlabel='time [ms]', ylabel='energy / energy at the start', title='Energies, E = %g Pa' % young)
 	left.legend()
 	right.legend(loc='lower right')

@@ -36,7 +36,8 @@ for shape, dt in (('cubic', 1e-3), ('cubic', 5e-4), ('quadratic', 1e-3), ('linea
 		('momentum, %s' % shape, momentum/one, 1e-12), ('energy balance, %s' % shape, balance, 1e-3)])
 	if shape == 'cubic' and dt == 1e-3:
 		position, mises = pictures[0]
-		axes[0].scatter(position[:, 0], position[:, 1], c=mises, s=12, cmap='viridis', linewidths=0)
+		dots = axes[0].scatter(position[:, 0], position[:, 1], c=mises, s=12, cmap='viridis', linewidths=0)
+		figure.colorbar(dots, ax=axes[0], label='[Pa]')
 		axes[0].set(aspect='equal', xlabel='x [m]', ylabel='y [m]', title='von Mises stress, t = 2 s')
 		for column, label in ((1, 'kinetic'), (2, 'elastic'), (3, 'total')): axes[1].plot(history[:, 0], history[:, column], label=label)
 		axes[1].set(xlabel='time [s]', ylabel='energy [J]', title='cubic, dt = 1e-3 s')

@@ -107,7 +107,7 @@ for cells, shape, mean in studies:
 	else: bound = (.05, .20)
 	add('footing, limit pressure', cells, shape, mean, '%.3f' % value, value, LIMIT, bound)
 	if cells >= 16: axes[1, 0].plot(100*depth, pressure, '-' if mean else '--', label='%s, %d cells%s' % (shape, cells, ', mean dilatation' if mean else ''))
-axes[1, 0].axhline(LIMIT, color='k', linewidth=.8)
+axes[1, 0].axhline(LIMIT, color='k', linewidth=.8, label='2 + pi')
 axes[1, 0].set(xlabel='settlement over half width [%]', ylabel='pressure over cohesion [-]', title='strip footing')
 axes[1, 0].legend(fontsize=7)
 

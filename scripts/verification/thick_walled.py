@@ -40,9 +40,10 @@ for kind, analysis, levels, bounds in (('cylinder', 'axisymmetric', (8, 16, 32),
 		exact = plastic[kind](r)
 		for values, line, name, colour in ((radially, exact[1], 'radial', 'C0'), (hoop, exact[2], 'hoop', 'C3')):
 			ax.plot(distance, values/YIELD, '.', ms=1.5, color=colour, alpha=.4)
-			ax.plot(r, line/YIELD, 'k', lw=1)
+			exactly, = ax.plot(r, line/YIELD, 'k', lw=1)
 			ax.plot([], [], 'o', color=colour, label=name)
 		ax.set(xlabel='r [m]', ylabel='stress over yield stress', title='%s, %s, %d points' % (kind, analysis, len(start)))
+		exactly.set_label('exact')
 		ax.legend()
 figure.savefig(os.path.join(FIGURES, 'thick_walled.png'), dpi=110, bbox_inches='tight')
 report.finish()

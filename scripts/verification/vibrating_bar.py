@@ -65,6 +65,6 @@ for v0, shape, cells, scheme, error, energy in (
 		ax.plot(t, .1*2/np.pi*np.cos(OMEGA*t), 'k', lw=.8, label='exact')
 		ax.plot(history[::4, 0], history[::4, 1], 'C0.', ms=3, label='cubic, 64 cells, MUSL')
 		ax.set(xlabel='time [s]', ylabel='velocity of the centre of mass [m/s]')
-		ax.legend(loc='upper right')
+		ax.legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=2, frameon=False)
 		figure.savefig(os.path.join(FIGURES, 'vibrating_bar.png'), dpi=110, bbox_inches='tight')
 report.finish()

@@ -28,11 +28,20 @@ inline const char* name(Analysis a) { return std::array<const char*, 5> { "uniax
 
 inline std::string name(Method m) { return std::string(name(m.scheme)) + (m.fullMass ? ", full mass" : ""); }
 
-/* A scene of the kernel alone: what the engine does in YADE, for tests. */
-struct Scene {
-	Points                  points;
-	std::vector<Law>        laws;
-	std::vector<Wall>       walls;
+/* A scene of the kernel alone, for tests; it replaces the engine in YADE. The solver refers to points, laws and walls. They
+keep their addresses when the scene is moved, so that a function may return a scene. */
+class Scene {
+	struct Data {
+		Points            points;
+		std::vector<Law>  laws;
+		std::vector<Wall> walls;
+	};
+	std::unique_ptr<Data> m_data = std::make_unique<Data>();
+
+public:
+	Points&                 points = m_data->points;
+	std::vector<Law>&       laws   = m_data->laws;
+	std::vector<Wall>&      walls  = m_data->walls;
 	StepControl             control;
 	std::unique_ptr<Solver> solver;
 

@@ -356,4 +356,29 @@ TEST(SolverInvariantsTest, PicAndDampingOnlyTakeEnergy)
 	}
 }
 
+/* A scene that is moved while it runs goes on with its own points and walls. */
+TEST(SceneTest, MovesWithItsSolver)
+{
+	const auto make = [] {
+		Scene s;
+		s.laws  = { Scene::elastic(1e6, .3, 1000) };
+		s.walls = { Scene::wall(1, 1, 0, Wall::Kind::fixed) };
+		s.addBox(2, { 0, 0, 0 }, { 1, 1, 0 }, .125);
+		s.control.dt = 1e-3, s.control.gravity = { 0, -10, 0 };
+		s.start(Analysis::planeStrain, ShapeKind::cubic, .25);
+		s.run(3);
+		return s;
+	};
+	Scene stays = make();
+	stays.run(5);
+	auto  place = std::make_unique<Scene>(make());
+	Scene moved = std::move(*place);
+	place.reset();
+	moved.run(5);
+	EXPECT_TRUE(moved.points.position == stays.points.position);
+	EXPECT_TRUE(moved.points.velocity == stays.points.velocity);
+	EXPECT_NE(moved.walls[0].force[1], 0);
+	EXPECT_EQ(moved.walls[0].force, stays.walls[0].force);
+}
+
 } // namespace

@@ -194,12 +194,14 @@ TEST(LongWallTest, ForceUnderABlockAtRestIsItsWeight)
 							sum += wall.force[d];
 						EXPECT_NEAR(sum, 0, 1e-3 * weight);
 					}
-				double stress = 0; // of the lowest row: nearly the weight over the area
+				// the row of points next to the wall, at half a spacing: its mean stress bears the 15/16 above it; 3 %, as
+				// four cells leave 0.3 to 2.1 %, by analysis and kind
+				double stress = 0, volume = 0;
 				for (std::size_t p = 0; p < s.points.count(); ++p) {
 					const double depth = side > 0 ? s.points.position[axis][p] : 1 - s.points.position[axis][p];
-					if (depth < .1) stress = std::min(stress, s.points.stress[axis][p]);
+					if (depth < .1) stress += s.volume(p) * s.points.stress[axis][p], volume += s.volume(p);
 				}
-				EXPECT_NEAR(stress, -weight * 15 / 16, .4 * weight);
+				EXPECT_NEAR(stress / volume, -weight * 15 / 16, .03 * weight);
 			}
 }
 
