@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A batch over n: how sharp the knee of the hysteretic law makes the yielding of a beam.
+"""A batch over n, the sharpness of the knee of the hysteretic law.
 
 	scripts/yade-mpm-batch --job-threads=1 scripts/examples/batch_n.table scripts/examples/batch_n.py
 
-A steel cantilever, 1 x 0.1 x 0.05 m, 4 points through the depth, loaded at its tip to 28 kN in 20 ms and unloaded in another 20,
-5 % hardening, damping 0.02: quick rather than static. yade-batch runs it once for every line of the table, in parallel where
-there are cores. Each job adds its curve to out/batch_n (or the folder in MPM_OUT), and the one that finishes last finds
-all of them there: batch_n.png. Without a table (scripts/yade-mpm -n -x scripts/examples/batch_n.py) it runs n = 10.
+A steel cantilever, 1 x 0.1 x 0.05 m, 4 points through the depth, 5 % hardening, damping 0.02. The tip load
+rises to 28 kN in 20 ms and falls in 20 ms, which is fast, not static. yade-batch runs one job per line of the
+table, in parallel if there are cores. Each job adds its curve to out/batch_n (or the folder in MPM_OUT); the
+last one draws all of them, batch_n.png. Without a table (scripts/yade-mpm -n -x scripts/examples/batch_n.py)
+the script runs n = 10.
 """
 import glob
 import os

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The cantilever of example 4.1 in 3D, beside the same in plane stress and finite elements.
+"""The cantilever of example 4.1 in 3D, compared with plane stress and finite elements.
 
 	scripts/yade-mpm -n -x scripts/examples/cantilever_3d.py [out] [--points 8]
 
-Steel, 1 x 0.1 x 0.05 m, E = 210 GPa, nu = 0.3, J2 with a yield stress of 240 MPa and no hardening, clamped at x = 0, loaded at the end by 28 kN in
-0.1 s and held. In 3D half of the thickness is modelled, from the middle plane (a slip wall) to the free side; --points, a multiple of 4, is the number
-of layers through the height. Curves of load against displacement of both, and of a finite element code in plane stress (tests/data/cantilever): at
-10 kN both are within 2 % of it and of each other. Leaves cantilever_3d.csv and .png.
+Steel, 1 x 0.1 x 0.05 m, E = 210 GPa, nu = 0.3, J2 with a yield stress of 240 MPa and no hardening. It is
+clamped at x = 0, loaded at the end by 28 kN in 0.1 s, and held. In 3D the model is half of the thickness,
+from the middle plane (a slip wall) to the free side. --points, a multiple of 4, is the number of layers
+through the height. At 10 kN both curves are within 2 % of finite elements in plane stress
+(tests/data/cantilever) and of each other. Writes cantilever_3d.csv and .png.
 """
 import argparse
 import csv

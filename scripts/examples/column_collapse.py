@@ -3,11 +3,13 @@
 
 	scripts/yade-mpm -n -x scripts/examples/column_collapse.py [out] [--aspect 1] [--points 32] [--angle 30]
 
-A quarter of it between two slip walls, on a wall with friction. Radius r0 = 0.1 m, height aspect times that; Drucker-Prager, perfectly plastic, friction angle
-30 deg (--angle), no dilatancy, cohesion 5 Pa (0.3 % of the weight of 0.1 m), E = 1 MPa, nu = 0.3, 1600 kg/m3; friction of the base 30 deg. --points is
-the number of material points along r0. It runs for 5 sqrt(height/g), by when the heap lies. Beside the run-out that Lube, Huppert, Sparks & Hallworth, J. Fluid
-Mech. 508 (2004) 175 measured with several kinds of grains, (r - r0)/r0 = 1.24 a for a < 1.7 and 1.6 sqrt(a) above:
-doc/verification/column-collapse.md. Leaves column_collapse.csv and .png.
+The model is a quarter between two slip walls, on a wall with friction of 30 deg. Radius r0 = 0.1 m, height
+aspect times r0. Drucker-Prager, perfectly plastic, friction angle 30 deg (--angle), no dilatancy, cohesion 5
+Pa (0.3 % of the weight of 0.1 m), E = 1 MPa, nu = 0.3, 1600 kg/m3. --points is the number of material points
+along r0. The run lasts 5 sqrt(height/g), until the heap is at rest. The dashed line is the run-out that Lube,
+Huppert, Sparks & Hallworth, J. Fluid Mech. 508 (2004) 175, measured with several kinds of grains: (r - r0)/r0
+= 1.24 a for a < 1.7, 1.6 sqrt(a) above (doc/verification/column-collapse.md). Writes column_collapse.csv and
+.png.
 """
 import argparse
 import csv

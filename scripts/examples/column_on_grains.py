@@ -3,9 +3,10 @@
 
     scripts/yade-mpm -n -x scripts/examples/column_on_grains.py [out] [--points 16] [--time 0.6]
 
-Plane strain, a slice of 0.1 m. Soil (Drucker-Prager, phi = 30 deg, no cohesion to speak of, E = 1 MPa, 1800 kg/m3): 0.5 m wide, 1 m high, against a
-rough wall at x = 0. Below it grains of radius 0.04 m lie loosely on a wall of YADE: soil, grains and walls touch through Cundall and
-Strack's law, friction angle 30 deg. --points is the number of material points across the column. Leaves column_on_grains.csv and .png.
+Plane strain, a slice of 0.1 m. The soil is 0.5 m wide and 1 m high, against a rough wall at x = 0: Drucker-
+Prager, phi = 30 deg, almost no cohesion, E = 1 MPa, 1800 kg/m3. Below it, loose grains of radius 0.04 m lie
+on a wall of YADE. Soil, grains and walls touch by Cundall and Strack's law with a friction angle of 30 deg.
+--points is the number of material points across the column. Writes column_on_grains.csv and .png.
 """
 import argparse
 import csv

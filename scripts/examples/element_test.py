@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One material point under tension and compression: what the parameters of the hysteretic law do.
+"""One material point under tension and compression: effect of the parameters of the hysteretic law.
 
 	scripts/yade-mpm -n -x scripts/examples/element_test.py [out]
 
-Uniaxial stress (free=('yy', 'zz')), strain 0, 3, -3, 3 yield strains: n = 1, 2, 5, 25 and classical plasticity; tangent ratios
-0, 0.05, 0.2; beta and gamma. Then closed stress cycles, 0.8 -> 0.6 -> 0.8 of the yield stress: the smooth law creeps on, unless
-reloading is compatible with plasticity. Leaves in the folder out: element_test.csv and element_test.png.
+Uniaxial stress (free=('yy', 'zz')), strain 0, 3, -3, 3 yield strains: n = 1, 2, 5, 25 and classical
+plasticity; tangent ratios 0, 0.05, 0.2; beta and gamma. Then closed stress cycles, 0.8 -> 0.6 -> 0.8 of the
+yield stress: the smooth law drifts, unless reloading is compatible with plasticity. Writes element_test.csv
+and element_test.png.
 """
 import argparse
 import csv

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Grains fall on a thin elastoplastic plate that is held at two edges, and leave it bent.
+"""Grains fall on a thin elastoplastic plate that is clamped at two edges, and bend it permanently.
 
     scripts/yade-mpm -n -x scripts/examples/grains_on_plate.py [out] [--grains 48] [--speed 3] [--time 0.2]
 
-A plate of 1 x 0.5 x 0.05 m, a soft metal (E = 100 MPa, yield stress 1 MPa, 5 % hardening, 2000 kg/m3), 3D, three layers of points; its
-ends at x = 0 and x = 1 are clamped by prescribed points. Spheres (radius 0.04 m, 2600 kg/m3) in a random loose cloud fall on it.
-Its long edges are free: a sphere can leave the plate over them.
-Leaves grains_on_plate.csv (deflection, plastic strain, energies, contacts over time) and .png.
+The plate is 1 x 0.5 x 0.05 m, of a soft metal (E = 100 MPa, yield stress 1 MPa, 5 % hardening, 2000 kg/m3),
+3D, with three layers of points. Prescribed points clamp its ends at x = 0 and x = 1. Spheres (radius 0.04 m,
+2600 kg/m3) in a random loose cloud fall on it. The edges at y = 0 and y = 0.5 m are free: spheres leave the
+plate over them and fall below it. Writes grains_on_plate.csv (deflection, plastic strain, energies, contacts
+over time) and .png.
 """
 import argparse
 import csv

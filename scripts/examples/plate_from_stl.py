@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A plate with a hole, cut from an STL file by GTS, pulled beyond yield.
+"""A plate with a hole, read from an STL file, is pulled beyond yield.
 
 	scripts/yade-mpm -n -x scripts/examples/plate_from_stl.py [out]
 
-The file, scripts/examples/plate.stl, is a plate of 0.4 x 0.2 x 0.02 m with a hole of radius 0.04 m. Material points fill its section
-at z = 0. Plane stress, steel with 5 % hardening; the left edge is held by a wall, the right end is pulled with a force that
-grows smoothly in 2 ms to 620 kN; the net section beside the hole yields at 576 kN. Leaves in the folder out: plate_from_stl.png, and files for ParaView, plate-points.pvd.
+scripts/examples/plate.stl is a plate of 0.4 x 0.2 x 0.02 m with a hole of radius 0.04 m. Material points fill
+its section at z = 0. Plane stress, steel with 5 % hardening. A wall holds the left edge. A force pulls the
+right end and grows smoothly in 2 ms to 620 kN; the net section beside the hole yields at 576 kN. Writes
+plate_from_stl.png, and files for ParaView, plate-points.pvd.
 """
 import os
 import sys

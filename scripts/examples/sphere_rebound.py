@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A sphere falls on an elastic block and rebounds, ever higher the stiffer the block.
+"""A sphere falls on an elastic block and rebounds, faster from a stiffer block.
 
     scripts/yade-mpm -n -x scripts/examples/sphere_rebound.py [out] [--young 1e5 1e6 1e7 1e8] [--time 0.25]
 
-The sphere (radius 0.2 m, 1000 kg/m3, E = 1e5 Pa) hits a block of 1 x 1 x 0.5 m on a rigid wall at 1 m/s, without gravity or
-friction. A contact lasts as long as the softer of the two lets it; what the block's waves take with them in that time is lost to
-the sphere. The ratio of speeds, 1 - (loss), tends to 1 with the block's stiffness. Leaves sphere_rebound.csv and .png.
+The sphere (radius 0.2 m, 1000 kg/m3, E = 1e5 Pa) hits a block of 1 x 1 x 0.5 m on a rigid wall at 1 m/s,
+without gravity or friction. The softer of the two determines the duration of the contact. Waves in the block
+carry away the energy that the sphere loses in this time. The ratio of speeds tends to 1 with the stiffness of
+the block. Writes sphere_rebound.csv and .png.
 """
 import argparse
 import csv
