@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "boundary/Wall.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,18 +11,6 @@
 #include <vector>
 
 namespace yade::mpm {
-
-/* A half-space boundary normal to a coordinate axis. */
-struct Wall {
-	enum class Kind { fixed, slip, friction };
-	int                   axis     = 0;
-	int                   side     = 1; // +1: the material is on the side of growing coordinates
-	double                position = 0; // of the plane, on its axis [m]
-	Kind                  kind     = Kind::fixed;
-	double                friction = 0;         // Coulomb coefficient
-	std::array<double, 3> velocity { 0, 0, 0 }; // [m/s]
-	std::array<double, 3> force { 0, 0, 0 };    // what the material exerts on the wall, of the last step [N]
-};
 
 /* Where the grid lies: node i of an axis is at origin + i cell. Walls lie on nodes; xiMin and xiMax are theirs, or infinite. */
 template <int dim> struct Geometry {

@@ -8,6 +8,12 @@
 
 namespace yade::mpm {
 
+using Field = Column; // one number a node
+/* One field a component. */
+template <int dim> struct NodeVector : std::array<Field, dim> {};
+/* The lumped mass for the motion along each axis. */
+template <int dim> struct NodeMass : std::array<Field*, dim> {};
+
 constexpr int ipow(int base, int exponent) { return exponent == 0 ? 1 : base * ipow(base, exponent - 1); }
 
 /* The background grid: blocks of width^dim nodes, only where points are, found anew whenever the points are sorted.
@@ -45,6 +51,18 @@ public:
 		}
 		const auto at = std::lower_bound(m_blocks.begin(), m_blocks.end(), block);
 		return at == m_blocks.end() || *at != block ? -1 : (at - m_blocks.begin()) * nodes + local;
+	}
+
+	/* visit(index, position in the node arrays) for every node. */
+	template <class Visit> void forEachNode(Visit&& visit) const
+	{
+		for (std::size_t b = 0; b < m_blocks.size(); ++b)
+			for (int local = 0; local < nodes; ++local) {
+				Index node = m_blocks[b];
+				for (int d = 0, rest = local; d < dim; ++d, rest >>= log2Width)
+					node[d] = node[d] * width + (rest & (width - 1));
+				visit(node, std::ptrdiff_t(b) * nodes + local);
+			}
 	}
 
 	/* Brings the points of a tile together and finds the blocks. baseOf(p) is the first node of a point's support. isKept(t):

@@ -177,6 +177,15 @@ template <class S> constexpr int normals()
 	return count;
 }
 
+/* Where sigma_de stands among the components of a stress state. */
+template <class S> constexpr int componentOf(int d, int e)
+{
+	const int solid = d == e ? d : 6 - d - e; // xx, yy, zz, yz, zx, xy
+	for (int k = 0; k < S::N; ++k)
+		if (S::solid[k] == solid) return k;
+	return -1;
+}
+
 /* Numbers in G = dt grad v, dim x dim row-major; where there is a hoop strain its rate times dt comes last. */
 template <class S> constexpr bool hasHoop  = std::is_same_v<S, Axisymmetric>;
 template <class S> constexpr int gradients = S::dim* S::dim + hasHoop<S>;

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "MpmSolver.hpp"
+#include "RoundTrip.hpp"
 
 namespace yade::mpm {
 
-/* Velocities that the grid does not see, (1 - S S+)^2 v_p (XPIC(2): Hammerquist & Nairn, CMAME 318 (2017) 724), less a part of them. At a wall
-that takes momentum, which is in its reaction. */
-template <class S, class Shape> void MpmSolver<S, Shape>::filterVelocities()
+/* Null-space modes of the point velocities, (1 - S S+)^2 v_p (XPIC(2): Hammerquist & Nairn, CMAME 318 (2017) 724): the part
+control.filter of them is removed. At a wall they carry momentum, which goes into its reaction. */
+template <class D> void filterVelocities(D& d, const StepControl& control)
 {
-	const double    before = m_control.trackEnergy ? kineticEnergy() : 0, rate = m_control.filter / m_control.dt;
-	NodeVector<dim> seen, trip;
-	spreadVelocities(nullptr, seen);
-	double work = reflect(seen, true, rate);
-	spreadVelocities(&seen, trip);
-	work += reflect(trip, true, -rate);
-	subtractRoundTrip(seen, trip);
-	forEachTile([&](std::size_t t) {
-		const Tile& tile = m_grid.tiles()[t];
-		Patch       v[dim];
-		for (int d = 0; d < dim; ++d)
-			read(tile, seen[d], v[d]);
+	constexpr int      dim    = D::dim;
+	Points&            P      = d.transfer.points;
+	const double       before = control.trackEnergy ? kineticEnergy<dim>(P) : 0, rate = control.filter / control.dt;
+	NodeVector<dim>    seen, trip;
+	spreadVelocities(d.transfer, noField<dim>, seen);
+	double work = projectWithReactions(d, seen, Motion::velocity, rate, control.dt);
+	spreadVelocities(d.transfer, &seen, trip);
+	work += projectWithReactions(d, trip, Motion::velocity, -rate, control.dt);
+	subtractRoundTrip(d.transfer, seen, trip);
+	d.transfer.forEachTile([&](std::size_t t) {
+		const auto&        tile = d.transfer.grid.tiles()[t];
+		typename D::Values v[dim];
+		for (int a = 0; a < dim; ++a)
+			D::Patch::read(tile, seen[a], v[a]);
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
-			const Weights w = weights(tile, p);
-			for (int d = 0; d < dim; ++d)
-				if (m_points.fixed.empty() || !(m_points.fixed[p] >> d & 1))
-					m_points.velocity[d][p] += m_control.filter * (gather(w, v[d]) - m_points.velocity[d][p]);
+			const auto w = d.transfer.weights(tile, p);
+			for (std::size_t a = 0; a < std::size_t(dim); ++a)
+				if (P.fixed.empty() || !(P.fixed[p] >> a & 1)) P.velocity[a][p] += control.filter * (w.gather(v[a]) - P.velocity[a][p]);
 		}
 	});
-	if (!m_control.trackEnergy) return;
-	const double lost = before - kineticEnergy() - work;
-	for (Energies* energies : { &m_points.energies, &m_points.upcoming })
+	if (!control.trackEnergy) return;
+	const double lost = before - kineticEnergy<dim>(P) - work;
+	for (Energies* energies : { &P.energies, &P.upcoming })
 		energies->damping += .5 * lost, energies->walls += .5 * work;
 }
 

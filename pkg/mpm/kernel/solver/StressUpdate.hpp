@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "../laws/LawLanes.hpp"
+#include "MeanDilatation.hpp"
+#include "NodeFields.hpp"
+#include "StressWork.hpp"
+#include "TileReport.hpp"
+#include <optional>
+
+namespace yade::mpm {
+
+/* Eq. 16:  grad v_p = sum v_i grad N_ip, strain increment and rotation, law, deformation gradient; then the point moves by its
+displacement increment. Points of a block that share a law are updated at once, others one by one. */
+template <class D> struct StressUpdate {
+	using S                    = typename D::S;
+	using Shape                = typename D::Shape;
+	using Values               = typename D::Values;
+	static constexpr int  dim  = S::dim, N = S::N;
+	static constexpr bool hoop = hasHoop<S>;
+
+	static constexpr const char* noVolume = "has a volume that is not positive";
+	static constexpr const char* noStress = "is strained by more than its law can follow in a step";
+	static constexpr const char* tooFar   = "is deformed by more than its own size in a step";
+
+	D&                      d;
+	const std::vector<Law>& laws;
+	const StepControl&      control;  // of the step whose velocities strain the points
+	Energies*               energies; // of the tiles, where they are tracked
+
+	void updateTile(std::size_t t, TileReport& report)
+	{
+		run(d.transfer.instructions, [this, t, &report] { strainTile(t, report); });
+	}
+
+private:
+	Points& points() const { return d.transfer.points; }
+
+	void strainTile(std::size_t t, TileReport& report)
+	{
+		const auto& tile = d.transfer.grid.tiles()[t];
+		Values      v[dim], dilatations;
+		for (int a = 0; a < dim; ++a)
+			D::Patch::read(tile, d.fields.velocity[a], v[a]);
+		if (averagesDilatation<S>(control)) elementDilatations<S>(d.transfer, tile, control, v, dilatations);
+		forEachBlock(tile.begin, tile.end, [&](Block block) {
+			Lanes                   x[dim], G[gradients<S>];
+			WeightLanes<dim, Shape> w;
+			for (int a = 0; a < dim; ++a)
+				load(points().position[std::size_t(a)], block, x[a]);
+			d.transfer.weights(tile, block, x, w);
+			for (int l = 0; l < lanes; ++l)
+				displacementGradient<S>(w[std::min(l, block.count - 1)], v, x[0][l], control.dt, l, G);
+			if (averagesDilatation<S>(control)) takeMeanDilatation<S, Shape>(block, control, w, dilatations, G);
+			if (!areModerate(G) || !updateBlockStress(block, G, report))
+				for (int l = 0; l < block.count; ++l) {
+					double Gp[gradients<S>];
+					for (int k = 0; k < gradients<S>; ++k)
+						Gp[k] = G[k][l];
+					updatePointStress(t, block.first + std::size_t(l), Gp, report);
+				}
+			move(block, x);
+		});
+	}
+	void move(Block block, Lanes (&x)[dim])
+	{
+		Lanes advance;
+		for (std::size_t a = 0; a < std::size_t(dim); ++a) {
+			load(points().advance[a], block, advance);
+			forLanes([&](int l) { x[a][l] += advance[l], advance[l] = 0; });
+			store(x[a], block, points().position[a]);
+			store(advance, block, points().advance[a]);
+		}
+	}
+
+	/* Whether no point is deformed by as much as its own size in this step. Beyond, the run has failed, and a law would take
+	sub-steps for ever. */
+	static bool areModerate(const Lanes (&G)[gradients<S>])
+	{
+		int moderate = 1;
+		for (int k = 0; k < gradients<S>; ++k)
+#pragma omp simd reduction(& : moderate)
+			for (int l = 0; l < lanes; ++l)
+				moderate &= std::abs(G[k][l]) <= 1;
+		return moderate;
+	}
+	template <int count> static bool isFinite(const double* x)
+	{
+		return std::all_of(x, x + count, [](double value) { return std::isfinite(value); });
+	}
+	static double determinantOf(const Lanes (&F)[dim * dim], int l)
+	{
+		double f[dim * dim];
+		for (int k = 0; k < dim * dim; ++k)
+			f[k] = F[k][l];
+		return determinant<dim>(f);
+	}
+
+	/* The stress update of a block at once, where the points share a law; else returns false and does nothing. */
+	bool updateBlockStress(Block block, const Lanes (&G)[gradients<S>], TileReport& report)
+	{
+		Points&   P        = points();
+		const int material = P.material[block.first];
+		if (energies) return false;
+		for (int l = 1; l < block.count; ++l)
+			if (P.material[block.first + std::size_t(l)] != material) return false;
+
+		const Law&  law      = laws[std::size_t(material)];
+		const int   columns  = Internals::of(law).columns(N);
+		const bool  thinning = std::is_same_v<S, PlaneStress> && control.thinning, tracksNormal = !P.freeStrain.empty();
+		LawBlock<S> b;
+		b.respond = thinning || tracksNormal;
+		std::copy(G, G + gradients<S>, b.G);
+		for (int k = 0; k < N; ++k)
+			load(P.stress[std::size_t(k)], block, b.sigma[k]);
+		for (int k = 0; k < columns; ++k)
+			load(P.internal[std::size_t(k)], block, b.internal[k]);
+		for (int k = 0; k < dim * dim; ++k)
+			load(P.deformation[std::size_t(k)], block, b.F[k]);
+
+		updateBlock(d.transfer.instructions, law, control.largeStrain, b);
+		int sound = 1;
+#pragma omp simd reduction(& : sound)
+		for (int l = 0; l < lanes; ++l) {
+			double sum = 0;
+			for (int k = 0; k < N; ++k)
+				sum += b.sigma[k][l];
+			sound &= (sum - sum == 0) & (determinantOf(b.F, l) > 0);
+		}
+		if (!sound) reportBlock(block, b, report);
+
+		for (int k = 0; k < N; ++k)
+			store(b.sigma[k], block, P.stress[std::size_t(k)]);
+		for (int k = 0; k < columns; ++k)
+			store(b.internal[k], block, P.internal[std::size_t(k)]);
+		for (int k = 0; k < dim * dim; ++k)
+			store(b.F[k], block, P.deformation[std::size_t(k)]);
+		if constexpr (hoop)
+			for (int l = 0; l < block.count; ++l)
+				advanceHoop(block.first + std::size_t(l), G[dim * dim][l]);
+		for (int l = 0; l < block.count && b.respond; ++l)
+			strainNormal(block.first + std::size_t(l), b.response.freeStrain[l]);
+		return true;
+	}
+	/* Reports the failures of a block; where the law has failed, the point keeps its stress. */
+	[[gnu::noinline]] void reportBlock(Block block, LawBlock<S>& b, TileReport& report)
+	{
+		for (int l = 0; l < block.count; ++l) {
+			const std::size_t p = block.first + std::size_t(l);
+			double            sigma[N];
+			for (int k = 0; k < N; ++k)
+				sigma[k] = b.sigma[k][l];
+			if (!(determinantOf(b.F, l) > 0))
+				report.fail(p, noVolume);
+			else if (!isFinite<N>(sigma))
+				report.fail(p, noStress);
+			if (isFinite<N>(sigma)) continue;
+			for (int k = 0; k < N; ++k)
+				b.sigma[k][l] = points().stress[std::size_t(k)][p];
+			for (std::size_t k = 0; k < points().internal.size(); ++k)
+				b.internal[k][l] = points().internal[k][p];
+			b.response.freeStrain[l] = 0;
+		}
+	}
+	void advanceHoop(std::size_t p, double g)
+	{
+		double& stretch = points().thicknessStretch[p];
+		stretch += control.largeStrain ? g * stretch : g;
+	}
+	/* Takes the strain increment of a stress-free normal over. */
+	void strainNormal(std::size_t p, double e)
+	{
+		if (!points().freeStrain.empty()) points().freeStrain[p] += e;
+		if (std::is_same_v<S, PlaneStress> && control.thinning) points().thicknessStretch[p] *= (1 + .5 * e) / (1 - .5 * e);
+	}
+	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[gradients<S>], TileReport& report)
+	{
+		Points&         P       = points();
+		const Law&      law     = laws[std::size_t(P.material[p])];
+		const Internals layout  = Internals::of(law);
+		const int       columns = layout.columns(N);
+		double          sigma[N], internal[Internals::most(N)], F[dim * dim];
+		for (int k = 0; k < N; ++k)
+			sigma[k] = P.stress[std::size_t(k)][p];
+		for (int k = 0; k < columns; ++k)
+			internal[k] = P.internal[std::size_t(k)][p];
+		for (int k = 0; k < dim * dim; ++k)
+			F[k] = P.deformation[std::size_t(k)][p];
+		if (!std::all_of(G, G + gradients<S>, [](double g) { return std::abs(g) <= 1; })) {
+			advanceDeformation<dim>(G, control.largeStrain, F);
+			return report.fail(p, determinant<dim>(F) > 0 ? tooFar : noVolume);
+		}
+		Increment<S> increment;
+		if (control.largeStrain) {
+			increment.large(G);
+			increment.rotate(sigma);
+			for (int k = 0; k < layout.tensors; ++k)
+				increment.rotate(internal + k * N);
+		} else
+			increment.small(G);
+		const bool responds = energies || !P.freeStrain.empty() || (std::is_same_v<S, PlaneStress> && control.thinning);
+		Response   response;
+
+		std::optional<StressWork<S>> work;
+		if (energies) work.emplace(P, law, p, control.largeStrain, F, increment.strain, sigma, internal);
+		updateStress<LawState<S>>(law, increment.strain, sigma, internal, responds ? &response : nullptr);
+		if (!isFinite<N>(sigma)) return report.fail(p, noStress);
+		if (responds) strainNormal(p, response.freeStrain);
+		if constexpr (hoop) advanceHoop(p, G[dim * dim]);
+		advanceDeformation<dim>(G, control.largeStrain, F);
+		if (energies) work->add(F, sigma, internal, response, energies[t]);
+		for (int k = 0; k < N; ++k)
+			P.stress[std::size_t(k)][p] = sigma[k];
+		for (int k = 0; k < columns; ++k)
+			P.internal[std::size_t(k)][p] = internal[k];
+		for (int k = 0; k < dim * dim; ++k)
+			P.deformation[std::size_t(k)][p] = F[k];
+		if (!(determinant<dim>(F) > 0)) report.fail(p, noVolume);
+	}
+};
+
+} // namespace yade::mpm
