@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""One material point through a strain path: to calibrate a material, and to see what a law does."""
+"""Drive one material point along a strain path, to calibrate a material or to examine a law."""
 
 import numpy
 from yade import wrapper
@@ -10,13 +10,13 @@ _AXES = ('xx', 'yy', 'zz')
 
 
 class PointHistory:
-	"""What a material point went through, at each of the N entries of its path.
+	"""History of a material point, at each of the N entries of its path.
 
 	:ivar stress: Cauchy stress [Pa], (N,3,3), tension positive
-	:ivar strain: strain [-], (N,3,3) with tensorial shear; the free components as found
+	:ivar strain: strain [-], (N,3,3) with tensorial shear, including the computed free components
 	:ivar backStress: back stress [Pa], (N,3,3); without components along free directions
 	:ivar plasticStrain: accumulated equivalent plastic strain [-], (N,)
-	:ivar dissipation: accumulated heat a volume [J/m3], (N,)
+	:ivar dissipation: accumulated heat per volume [J/m3], (N,)
 	"""
 
 	def __init__(self, raw):
@@ -27,17 +27,18 @@ class PointHistory:
 
 
 def drive(material, strain, free=()):
-	"""Take one material point, from rest without stress, through a path of small strains, in C++.
+	"""Drive one material point, initially free of stress, along a path of small strains.
 
-	Between two entries the strain grows in a straight line and the law integrates it to its own tolerance; the first entry is
-	reached from zero. The path is one of material strain: no rotation, no geometry.
+	The strain varies linearly between two entries, and from zero to the first one. The law integrates it to its own
+	tolerance. The path has neither rotation nor geometry.
 
 	:param material: a material, or label or index of one in O.materials
-	:param strain: path [-], N symmetric matrices with tensorial shear (gamma_xy = 2 strain[0,1]): array (N,3,3) or a sequence of Matrix3
-	:param free: names of normal components that are free of stress instead of prescribed: ``('zz',)`` is plane stress,
-		``('yy', 'zz')`` a bar under tension along x; what the path says of them is not read
+	:param strain: path [-], N symmetric matrices with tensorial shear (gamma_xy = 2 strain[0,1]): an array (N,3,3) or a
+		sequence of Matrix3
+	:param free: names of normal components with zero stress instead of a prescribed strain: ``('zz',)`` is plane stress,
+		``('yy', 'zz')`` a bar under tension along x; their strains in the path are ignored
 	:returns: :yref:`PointHistory` with arrays stress, strain, backStress, plasticStrain, dissipation
-	:raises ValueError: for a path or names that are not of this form (naming entry and component)
+	:raises ValueError: for a path or names of another form; the message names entry and component
 	:raises RuntimeError: if the material's parameters are not admissible
 	"""
 	path = _path(strain)
@@ -52,7 +53,7 @@ def drive(material, strain, free=()):
 
 
 def _path(strain):
-	"""The path as C++ wants it."""
+	"""Return the path as a contiguous array (N,3,3)."""
 	try:
 		path = numpy.ascontiguousarray(strain if isinstance(strain, numpy.ndarray) else [[list(row) for row in matrix] for matrix in strain], dtype=float)
 		shape = 'shape %s' % (path.shape,)
