@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Generates the pages of the manual on classes, functions and examples from the running program. scripts/doc runs it:
+"""Generates the pages of the manual on classes, functions and examples. scripts/doc runs it:
 
 	scripts/yade-mpm -n -x doc/generate.py <folder>
 """
@@ -24,7 +24,8 @@ def text(doc):
 	parts = re.split(r'(:yref:`[^`]*`|``[^`]*``)', doc)
 	for k, part in enumerate(parts):
 		if part.startswith(':yref:'): parts[k] = part.replace(':yref:', ':py:obj:')
-		elif not part.startswith('``'): parts[k] = linked(re.sub(r'([*|\\]|_(?=\W|$))', r'\\\1', part), ':doc:`/%s`')
+		elif not part.startswith('``'):
+			parts[k] = linked(re.sub(r'([*|\\]|_(?=\W|$))', r'\\\1', part), ':doc:`/%s`')
 	return ''.join(parts)
 
 
@@ -55,7 +56,8 @@ def own(module):
 
 def first(doc):
 	"""First sentence of an attribute's docstring, without YADE's roles."""
-	plain = re.sub(r':y[a-z]+:`([^`]*)`', r'\1', re.sub(r' ?:y(attrtype|attrflags|default):`[^`]*`', '', doc or ''))
+	plain = re.sub(r' ?:y(attrtype|attrflags|default):`[^`]*`', '', doc or '')
+	plain = re.sub(r':y[a-z]+:`([^`]*)`', r'\1', plain)
 	plain = re.sub(r':[a-z]+:`([^`]*)`', r'\1', plain).replace('|ycomp|', '').replace('|yupdate|', '')
 	return text(re.split(r'(?<=[.\]])\s', ' '.join(plain.split()))[0])
 
@@ -70,23 +72,29 @@ def inherited(cls):
 			kind, default = role(item.__doc__, 'yattrtype'), role(item.__doc__, 'ydefault')
 			if not kind: continue
 			default = re.sub(r'^\(\(void\)"[^"]*",(.*)\)$', r'\1', default)
-			lines += ['``%s``: *%s*' % (name, kind) + (', default ``%s``' % default if default else ''), indent('%s (%s)' % (first(item.__doc__), base.__name__)), '']
+			lines += ['``%s``: *%s*' % (name, kind) + (', default ``%s``' % default if default else '')]
+			lines += [indent('%s (%s)' % (first(item.__doc__), base.__name__)), '']
 	if issubclass(cls, yade.wrapper.Material):
-		missing = [name for name in ('young', 'poisson', 'density', 'frictionAngle') if not any(line.startswith('``%s``' % name) for line in lines)]
+		missing = [name for name in ('young', 'poisson', 'density', 'frictionAngle')
+			if not any(line.startswith('``%s``' % name) for line in lines)]
 		if missing: sys.exit('%s: the manual would not list %s' % (cls.__name__, ', '.join(missing)))
 	return ['**Inherited attributes**', ''] + lines if lines else []
 
 
 def classes():
-	page = ['Classes', '=======', '', 'This page lists the classes of the running program with all attributes. ``help(MpmEngine)`` at the prompt shows the same text.', '']
+	page = ['Classes', '=======', '']
+	page += ['This page lists the classes of the running program with all attributes. ``help(MpmEngine)`` at the prompt'
+		' shows the same text.', '']
 	for cls in sorted(own(yade.wrapper), key=lambda c: (c.__name__ not in ('MpmEngine', 'MpmWall'), c.__name__)):
 		base = cls.__bases__[0].__name__
-		page += [cls.__name__, '-'*len(cls.__name__), '', '.. py:class:: %s(**attributes)' % cls.__name__, '', indent('Derived from ``%s``.' % base), '', indent(text(cls.__doc__)), '']
+		page += [cls.__name__, '-'*len(cls.__name__), '', '.. py:class:: %s(**attributes)' % cls.__name__, '']
+		page += [indent('Derived from ``%s``.' % base), '', indent(text(cls.__doc__)), '']
 		for name, item in vars(cls).items():
 			if name.startswith('_') or name.startswith('disp'): continue
 			if callable(item) and not isinstance(item, property):
 				doc = [line for line in (item.__doc__ or '').strip().splitlines() if line.strip()]
-				page += [indent('.. py:method:: %s()' % name), '', indent(text(' '.join(line.strip() for line in doc if '->' not in line)), ' '*6), '']
+				plain = ' '.join(line.strip() for line in doc if '->' not in line)
+				page += [indent('.. py:method:: %s()' % name), '', indent(text(plain), ' '*6), '']
 				continue
 			kind, default = role(item.__doc__, 'yattrtype'), role(item.__doc__, 'ydefault')
 			page += [indent('.. py:attribute:: %s' % name)] + ([indent('   :type: %s' % kind)] if kind else []) + ['']
@@ -100,23 +108,27 @@ def python():
 	for name in mpm.__all__:
 		item = getattr(mpm, name)
 		kind, signature = ('function', str(inspect.signature(item))) if inspect.isfunction(item) else ('class', '')
-		page += ['.. py:%s:: %s%s' % (kind, name, signature), '', indent(linked(re.sub(':yref:', ':py:obj:', inspect.getdoc(item)), ':doc:`/%s`')), '']
+		doc = linked(re.sub(':yref:', ':py:obj:', inspect.getdoc(item)), ':doc:`/%s`')
+		page += ['.. py:%s:: %s%s' % (kind, name, signature), '', indent(doc), '']
 	return '\n'.join(page)
 
 
 def gallery():
 	"""Every example with its command and its picture; one without either is an error."""
-	page = ['# Gallery', '', 'Each example leaves its pictures and tables in the folder `out`.', '']
+	page = ['# Gallery', '', 'Each example writes its pictures and tables to the folder `out`.', '']
 	os.makedirs(os.path.join(folder, 'gallery'), exist_ok=True)
 	for script in sorted(glob.glob(os.path.join(root, 'scripts/examples/*.py'))):
 		name = os.path.basename(script)[:-3]
 		doc = ast.get_docstring(ast.parse(open(script).read())) or sys.exit('%s has no docstring' % script)
-		commands = [line.strip() for line in doc.splitlines() if line.strip().startswith('scripts/')] or sys.exit('%s: its docstring does not say the command that runs it' % script)
-		pictures = [p for p in ('gallery/%s.png' % name, 'verification/figures/%s.png' % name) if os.path.exists(os.path.join(root, 'doc', p))]
-		if not pictures: sys.exit('%s has no picture: put the one that it leaves into doc/gallery/%s.png' % (script, name))
+		commands = [line.strip() for line in doc.splitlines() if line.strip().startswith('scripts/')]
+		if not commands: sys.exit('%s: its docstring has no command: add a line that starts with scripts/' % script)
+		pictures = [p for p in ('gallery/%s.png' % name, 'verification/figures/%s.png' % name)
+			if os.path.exists(os.path.join(root, 'doc', p))]
+		if not pictures: sys.exit('%s has no picture: put the one that it writes into doc/gallery/%s.png' % (script, name))
 		paragraph = lambda part: '\n'.join(line.strip() for line in part.splitlines())
 		rest = [paragraph(part) for part in doc.split('\n\n')[1:] if not part.strip().startswith('scripts/')]
-		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands + ['```', ''] + ['![%s](%s)' % (name, pictures[0]), '']
+		page += ['## %s' % name, '', '**%s**' % paragraph(doc.split('\n\n')[0]), '', '```sh'] + commands
+		page += ['```', '', '![%s](%s)' % (name, pictures[0]), '']
 		page += [linked('\n\n'.join(rest).replace('*', '\\*'), '[this page](%s.md)'), '']
 	return '\n'.join(page)
 
