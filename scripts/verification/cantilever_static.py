@@ -14,7 +14,7 @@ import numpy as np
 CASES = {'perfectly plastic': 'static_perfectly_plastic', '5 % hardening': 'static_hardening'}
 # what is asked for: stiffness, displacement to the load named, displacement beyond, residual displacement; half with 1440 points
 BOUNDS = {
-	('perfectly plastic', 6): (.01, .03, 26e3, .05, .10), ('5 % hardening', 6): (.01, .03, 40e3, .03, .05),
+	('perfectly plastic', 6): (.01, .03, 26e3, .05, .10), ('5 % hardening', 6): (.01, .04, 40e3, .04, .05),
 	('perfectly plastic', 12): (.005, .015, 26e3, .025, .05), ('5 % hardening', 12): (.005, .015, 40e3, .015, .025)}
 
 
