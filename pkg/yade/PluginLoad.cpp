@@ -20,10 +20,10 @@ was built for, and lets Python find the plugin's own modules as parts of the pac
 /* Set by CMake: the version that was installed when the plugin was configured, and the folder, beside the plugin, that holds
 Python modules to be imported as yade.<module>. */
 #ifndef YADE_PLUGIN_BUILT_FOR
-#error "YADE_PLUGIN_BUILT_FOR is not defined (link the CMake target yade::plugin)"
+#	error "YADE_PLUGIN_BUILT_FOR is not defined (link the CMake target yade::plugin)"
 #endif
 #ifndef YADE_PLUGIN_PYTHON_FOLDER
-#define YADE_PLUGIN_PYTHON_FOLDER "mpm-py"
+#	define YADE_PLUGIN_PYTHON_FOLDER "mpm-py"
 #endif
 
 namespace yade {
@@ -36,10 +36,7 @@ namespace {
 		~PythonLock() { PyGILState_Release(state); }
 	};
 
-	std::string symbolOfVtable(const std::string& className)
-	{
-		return "_ZTVN4yade" + std::to_string(className.size()) + className + "E";
-	}
+	std::string symbolOfVtable(const std::string& className) { return "_ZTVN4yade" + std::to_string(className.size()) + className + "E"; }
 
 	/* The allocator rounds a size up, and may hand out a somewhat larger block that was left over: the smallest of many tells
 	how much was asked for. make() returns a new block each time. */
@@ -59,12 +56,11 @@ namespace {
 	/* Told to the allocator's rounding, 16 bytes. */
 	bool objectHasSize(const char* className, std::size_t size)
 	{
-		const std::size_t wanted = smallestBlock(
-		        (size + 23) / 16 * 16 - 8, [&] { return ::operator new(size); }, [](void* block) { ::operator delete(block); });
+		const std::size_t wanted =
+			smallestBlock((size + 23) / 16 * 16 - 8, [&] { return ::operator new(size); }, [](void* block) { ::operator delete(block); });
 		const std::size_t found = smallestBlock(
-		        wanted,
-		        [&] { return static_cast<void*>(Singleton<ClassFactory>::instance().createPure(className)); },
-		        [](void* object) { delete static_cast<Factorable*>(object); });
+			wanted, [&] { return static_cast<void*>(Singleton<ClassFactory>::instance().createPure(className)); },
+			[](void* object) { delete static_cast<Factorable*>(object); });
 		return found == wanted;
 	}
 
@@ -79,10 +75,10 @@ namespace {
 
 	std::string attributeMismatch()
 	{
-		const Real number = 1234.5;
+		const Real  number = 1234.5;
 		std::string wrong;
-		const auto check = [&](bool good, const char* name) {
-			if (!good && wrong.empty()) wrong = name;
+		const auto  check = [&](bool good, const char* name) {
+                        if (!good && wrong.empty()) wrong = name;
 		};
 		check(readsBack<Engine, std::string>("GlobalEngine", "label", &Engine::label, "probe"), "Engine.label");
 		check(readsBack<PeriodicEngine, long>("PeriodicEngine", "nDone", &PeriodicEngine::nDone, 42), "PeriodicEngine.nDone");
@@ -123,7 +119,7 @@ namespace {
 			PyErr_Clear(); // loaded by something else than the Python package yade: nothing to extend
 		}
 	}
-}
+} // namespace
 
 const std::vector<ExpectedClass>& expectedClasses()
 {
@@ -162,12 +158,12 @@ std::string layoutMismatch(const std::vector<ExpectedClass>& expected)
 		if (cls.vtableSize != 0) {
 			void* const vtable = dlsym(RTLD_DEFAULT, symbolOfVtable(cls.name).c_str());
 			Dl_info     info;
-			ElfW(Sym)*  symbol = nullptr;
+			ElfW(Sym)* symbol = nullptr;
 			if (!vtable || !dladdr1(vtable, &info, reinterpret_cast<void**>(&symbol), RTLD_DL_SYMENT) || !symbol)
 				return "this YADE has no class " + name;
 			if (symbol->st_size != cls.vtableSize)
 				return "in this YADE " + name + " has a vtable of " + std::to_string(symbol->st_size) + " bytes instead of "
-				        + std::to_string(cls.vtableSize);
+				       + std::to_string(cls.vtableSize);
 		}
 		if (!objectHasSize(cls.name, cls.size))
 			return "in this YADE a " + name + " does not have the expected size of " + std::to_string(cls.size) + " bytes";
@@ -204,7 +200,7 @@ bool pluginFitsRunningYade()
 		std::string refusal;
 		if (!reason.empty()) {
 			refusal = "yade-mpm: the plugin does not load because " + reason
-			        + "; rebuild it against the installed YADE " YADE_PLUGIN_BUILT_FOR ", or port pkg/yade (see its README) to this one.";
+				  + "; rebuild it against the installed YADE " YADE_PLUGIN_BUILT_FOR ", or port pkg/yade (see its README) to this one.";
 			std::cerr << refusal << std::endl;
 		}
 		extendPackagePath(refusal);

@@ -4,8 +4,8 @@
 #include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
 #include "../../tests/kernel/WeightColumn.hpp"
-#include "kernel/transfer/ShapeFunction.hpp"
 #include "kernel/TileGrid.hpp"
+#include "kernel/transfer/ShapeFunction.hpp"
 #include <cstdio>
 #include <fstream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Numerical fracture: found where bodies tear, and nowhere else. Gaps in cells; measured in whole bodies: 0.01 between disks that collide, 0.06 in a
 bar drawn to four times its length, 0.15 in the soft cantilever, 0.27 in Taylor's bar. A tear leaves two cells behind at once. */
-#include "Manufactured.hpp"
 #include "kernel/Continuity.hpp"
+#include "Manufactured.hpp"
 #include <gtest/gtest.h>
 
 using namespace yade::mpm;

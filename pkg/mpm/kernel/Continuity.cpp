@@ -156,7 +156,8 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 		const std::size_t p = entry.p;
 		found.clear();
 		for (int row = 0; row < 9; ++row) { // of three bins that follow each other along z
-			const std::array<int, 3> low { entry.bin[0] + row / 3 - 1, entry.bin[1] + row % 3 - 1, entry.bin[2] - 1 };
+			const int                across = row / 3 - 1, along = row % 3 - 1;
+			const std::array<int, 3> low { entry.bin[0] + across, entry.bin[1] + along, entry.bin[2] - 1 };
 			auto                     e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
 			for (; e != entries.end() && e->bin[0] == low[0] && e->bin[1] == low[1] && e->bin[2] <= low[2] + 2; ++e) {
 				const std::size_t     q  = e->p;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "../Reals.hpp"
 #include "Hardening.hpp"
 #include "J2.hpp"
-#include "../Reals.hpp"
 #include "StressState.hpp"
 #include <algorithm>
 #include <limits>
@@ -380,7 +380,7 @@ namespace detail {
 				}
 				// flow that vanishes in between, where loading and unloading meet, is not to be seen in the difference alone
 				const bool turns = (mDe1[l] < 0) != (mDe2[l] < 0);
-				error2[l]        = turns & (sum2 > difference2) ? sum2 : difference2;
+				error2[l]        = (turns & (sum2 > difference2)) ? sum2 : difference2;
 				const bool good  = (error2[l] <= admitted) | (step[l] <= 1e-9);
 				accepted[l]      = good ? 1 : 0;
 				for (int k = 0; k < size; ++k) {
@@ -432,7 +432,7 @@ namespace detail {
 				failed[l]            = good ? 0 : 1;
 			});
 		}
-		forLanes<W>([&](int l) { y[0][l] = (done[l] < 1) | (lost[l] != 0) ? nan : y[0][l]; });
+		forLanes<W>([&](int l) { y[0][l] = ((done[l] < 1) | (lost[l] != 0)) ? nan : y[0][l]; });
 	}
 } // namespace detail
 

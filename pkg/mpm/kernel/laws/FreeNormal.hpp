@@ -59,7 +59,7 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* stra
 		freeStress(e, fe);
 		forLanes<W>([&](int l) {
 			const bool go = inwards(l), across = fe[l] * fb[l] < 0;
-			a[l]  = go & across ? b[l] : a[l];
+			a[l]  = (go & across) ? b[l] : a[l];
 			fa[l] = go ? (across ? fb[l] : .5 * fa[l]) : fa[l];
 			b[l] = e[l], fb[l] = fe[l];
 		});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "Hardening.hpp"
 #include "../Reals.hpp"
+#include "Hardening.hpp"
 #include "StressState.hpp"
 
 namespace yade::mpm {

@@ -56,11 +56,10 @@ template <class T> struct VectorConverter<std::vector<boost::shared_ptr<T>>> {
 	{
 		const auto* known = boost::python::converter::registry::query(boost::python::type_id<Vector>());
 		if (!known || !known->m_to_python) boost::python::to_python_converter<Vector, VectorConverter>();
-		if (!known || !known->rvalue_chain)
-			boost::python::converter::registry::push_back(&convertible, &construct, boost::python::type_id<Vector>());
+		if (!known || !known->rvalue_chain) boost::python::converter::registry::push_back(&convertible, &construct, boost::python::type_id<Vector>());
 	}
 };
-template <class T> void registerConverter(const T*) { }
+template <class T> void registerConverter(const T*) {}
 template <class T> void registerConverter(const std::vector<boost::shared_ptr<T>>*) { VectorConverter<std::vector<boost::shared_ptr<T>>>::registerOnce(); }
 
 template <class T> void setAttribute(T& attribute, const boost::python::object& value) { attribute = boost::python::extract<T>(value)(); }
@@ -71,12 +70,14 @@ template <int flags, class Class, class Self, class T>
 void exposeAttribute(Class& pythonClass, const char* name, T Self::*member, const std::string& docAndType)
 {
 	namespace py = boost::python;
-	if constexpr (flags & Attr::hidden) return;
+	if constexpr (flags & Attr::hidden)
+		return;
 	else {
 		registerConverter(static_cast<const T*>(nullptr));
 		const std::string doc    = docAndType + " :yattrflags:`" + std::to_string(flags) + "` ";
 		const py::object  getter = [&] {
-                        if constexpr (IsEigen<T>::value && !(flags & Attr::readonly)) return py::make_getter(member, py::return_internal_reference<>());
+                        if constexpr (IsEigen<T>::value && !(flags & Attr::readonly))
+                                return py::make_getter(member, py::return_internal_reference<>());
                         else
                                 return py::make_getter(member, py::return_value_policy<py::return_by_value>());
 		}();
@@ -106,9 +107,8 @@ template <class T> boost::python::object initFromKeywords(boost::python::tuple s
 	boost::shared_ptr<T> instance(new T);
 	instance->pyHandleCustomCtorArgs(args, keywords);
 	if (const auto n = py::len(args); n > 0) {
-		throw std::runtime_error(
-		        instance->getClassName() + " takes its attributes as keywords, " + instance->getClassName() + "(name=value, ...); got "
-		        + std::to_string(n) + " argument" + (n > 1 ? "s" : "") + " without a name.");
+		throw std::runtime_error(instance->getClassName() + " takes its attributes as keywords, " + instance->getClassName() + "(name=value, ...); got "
+					 + std::to_string(n) + " argument" + (n > 1 ? "s" : "") + " without a name.");
 	}
 	if (py::len(keywords) > 0) instance->pyUpdateAttrs(keywords); // which calls callPostLoad too
 
