@@ -228,6 +228,8 @@ void MpmEngine::prepareSolver()
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
 	points.prepare(mpm::dimension(analysisKind), int(columns), internals, stretches(analysisKind), m_bodies > 0, scene->trackEnergy, freeNormal);
+	m_points->takeInitialStress(analysisKind);
+	m_points->loadFaces(analysisKind, scene->time);
 }
 
 /* Whether points carry a stretch normal to the plane: of their thickness, or of the rings that they stand for. */
@@ -248,7 +250,8 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 			require(points.position[0][p] > 0, name, "position[0]", points.position[0][p], "x is the radius; place points at x > 0 [m]");
 		} else if (dim == 2)
 			require(points.thickness[p] > 0, name, "thickness", points.thickness[p],
-				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m] (< 0 here: rings of an axisymmetric one)");
+				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]; points without one (0) are of a solid: set "
+				"MpmEngine.analysis = '3d'; < 0 are rings: 'axisymmetric'");
 		else
 			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
 		if (dim == 2)

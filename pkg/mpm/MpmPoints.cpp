@@ -192,7 +192,14 @@ Matrix3r MpmPoints::tensor(const mpm::Columns& columns, std::size_t p) const
 	return T;
 }
 
-Matrix3r MpmPoints::stress(std::size_t p) const { return tensor(points.stress, p); }
+Matrix3r MpmPoints::stress(std::size_t p) const
+{
+	const mpm::Columns& given = points.initialStress;
+	if (given.empty() || std::isnan(given[0][p])) return tensor(points.stress, p);
+	Matrix3r T;
+	T << given[0][p], given[5][p], given[4][p], given[5][p], given[1][p], given[3][p], given[4][p], given[3][p], given[2][p];
+	return T;
+}
 
 Matrix3r MpmPoints::backStress(std::size_t p) const
 {
@@ -252,44 +259,83 @@ namespace {
 	constexpr int subdomainOfPoints = 1;
 } // namespace
 
-py::object MpmPoints::append(
-	py::object positions, Real spacing, Real thickness, bool ring, const shared_ptr<Material>& material, const Vector3r& velocity, bool bodies)
+/* Number of a group: the one given, or that of a name; a new name gets the next free number. */
+int MpmPoints::groupOf(int number, const std::string& name)
 {
-	const DoubleBuffer                buffer(positions);
+	constexpr int greatest = 255;
+	if (name.empty()) {
+		if (number < 0 || number > greatest)
+			throw std::invalid_argument(
+				"group = " + std::to_string(number) + ": give a name, or a number from 0 (none) to " + std::to_string(greatest));
+		return number;
+	}
+	const auto known = std::find(groups.begin(), groups.end(), name);
+	if (known != groups.end()) return int(known - groups.begin()) + 1;
+	const int taken = points.group.empty() ? 0 : *std::max_element(points.group.begin(), points.group.end());
+	const int next  = std::max(taken, int(groups.size())) + 1;
+	if (next > greatest)
+		throw std::invalid_argument("group = '" + name + "': the scene has " + std::to_string(greatest) + " groups already; use one of them");
+	groups.resize(std::size_t(next));
+	groups.back() = name;
+	return next;
+}
+
+py::object MpmPoints::append(
+	py::dict columns, const shared_ptr<Material>& material, int group, const std::string& groupName, bool bodies, py::object mask, py::object color)
+{
+	if (!material) throw std::invalid_argument("MpmPoints.append: material = None: give a material of O.materials");
+	const DoubleBuffer position(columns["position"]), velocity(columns["velocity"]), volume(columns["volume"]), mass(columns["mass"]),
+		size(columns["size"]), depth(columns["depth"]);
+	const bool                    stressed = columns.has_key("stress");
+	std::unique_ptr<DoubleBuffer> stress;
+	if (stressed) stress = std::make_unique<DoubleBuffer>(columns["stress"]);
+	const std::size_t n = volume.size();
+	if (position.size() != 3 * n || velocity.size() != 3 * n || mass.size() != n || size.size() != n || depth.size() != n
+		|| (stressed && stress->size() != 9 * n))
+		throw std::invalid_argument("MpmPoints.append: the arrays differ in their number of points; call mpm.fill or mpm.points");
+	constexpr std::size_t chunk = 4096; // points between two looks at signals
+
+	std::vector<shared_ptr<MpmState>> states;
+	std::vector<shared_ptr<Body>>     made;
+	if (bodies) states.reserve(n), made.reserve(n);
+	for (std::size_t k = 0; k < n && bodies; ++k) {
+		if (k % chunk == 0 && PyErr_CheckSignals() != 0) py::throw_error_already_set();
+		const shared_ptr<MpmState> state(new MpmState);
+		const shared_ptr<Sphere>   sphere(new Sphere);
+		const shared_ptr<Body>     body(new Body);
+		sphere->radius = .5 * size.data()[k];
+		if (!color.is_none()) sphere->color = py::extract<Vector3r>(color)();
+		state->pos = state->refPos = Vector3r(position.data()[3 * k], position.data()[3 * k + 1], position.data()[3 * k + 2]);
+		state->vel                 = Vector3r(velocity.data()[3 * k], velocity.data()[3 * k + 1], velocity.data()[3 * k + 2]);
+		state->mass                = mass.data()[k];
+		state->inertia             = Vector3r::Constant(.4 * state->mass * sphere->radius * sphere->radius);
+		state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
+		body->state                = state;
+		body->shape                = sphere;
+		body->material             = material;
+		body->subdomain            = subdomainOfPoints;
+		if (!mask.is_none()) body->groupMask = py::extract<int>(mask)();
+		states.push_back(state), made.push_back(body);
+	}
+	if (PyErr_CheckSignals() != 0) py::throw_error_already_set();
+
+	// from here on nothing is refused or interrupted: points are made in whole, or not at all
 	const std::lock_guard<std::mutex> lock(mutex);
 	finish();
+	const int label = groupOf(group, groupName);
 	if (runtime.solver) runtime.solver->pointsChanged();
-
 	std::size_t index = std::size_t(std::find(materials.begin(), materials.end(), material) - materials.begin());
 	if (index == materials.size()) materials.push_back(material);
-
 	BodyContainer& container = *Omega::instance().getScene()->bodies;
 	dropErased(container); // ids of erased bodies are given again
 	py::list ids;
-	for (std::size_t k = 0; k + 2 < buffer.size(); k += 3) {
-		const Vector3r x(buffer.data()[k], buffer.data()[k + 1], buffer.data()[k + 2]);
-		int            id    = 0;
-		const Real     depth = ring ? 2 * M_PI * x[0] : thickness > 0 ? thickness : spacing, volume = spacing * spacing * depth;
-		const Real     mass = material->density * volume;
-		if (bodies) {
-			const shared_ptr<MpmState> state(new MpmState);
-			const shared_ptr<Sphere>   sphere(new Sphere);
-			const shared_ptr<Body>     body(new Body);
-			sphere->radius = .5 * spacing;
-			state->pos = state->refPos = x;
-			state->vel                 = velocity;
-			state->mass                = mass;
-			state->inertia             = Vector3r::Constant(.4 * mass * sphere->radius * sphere->radius);
-			state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
-			body->state                = state;
-			body->shape                = sphere;
-			body->material             = material;
-			body->subdomain            = subdomainOfPoints;
-			id = state->pointId = container.insert(body);
-		} else
-			id = nextBodyless--;
-		points.append(id, int(index), x.data(), velocity.data(), mass, volume, spacing, ring ? -depth : thickness);
-		if (points.energies.started) points.energies.external -= .5 * mass * velocity.squaredNorm();
+	for (std::size_t k = 0; k < n; ++k) {
+		const double *x = position.data() + 3 * k, *v = velocity.data() + 3 * k;
+		const int     id = bodies ? container.insert(made[k]) : nextBodyless--;
+		if (bodies) states[k]->pointId = id;
+		points.append(id, int(index), x, v, mass.data()[k], volume.data()[k], size.data()[k], depth.data()[k]);
+		if (label > 0) points.group.resize(points.count()), points.group.back() = label;
+		if (points.energies.started) points.energies.external -= .5 * mass.data()[k] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 		ids.append(id);
 	}
 	++points.generation;
@@ -297,13 +343,158 @@ py::object MpmPoints::append(
 	if (!points.stress.empty()) // columns that the analysis in hand needs, for whoever looks at the points before the next step
 		points.prepare(int(points.advance.size()), int(points.stress.size()), int(points.internal.size()), !points.thicknessStretch.empty(),
 			!points.force.empty(), !points.dissipation.empty(), !points.freeStrain.empty());
+	for (std::size_t k = 0; k < n && stressed; ++k)
+		storeStress(points.count() - n + k, stress->data() + 9 * k);
 	return ids;
+}
+
+// ---- loads on faces -----------------------------------------------------------------------------------------------------
+
+shared_ptr<MpmTraction> MpmPoints::addTraction(
+	py::dict columns, int kind, const Vector3r& traction, Real pressure, const std::vector<Real>& times, const std::vector<Real>& factors)
+{
+	const DoubleBuffer position(columns["position"]), area(columns["area"]);
+	if (position.size() != area.size())
+		throw std::invalid_argument("MpmPoints.addTraction: the arrays differ in their number of points; call mpm.traction");
+	const shared_ptr<MpmTraction> load(new MpmTraction);
+	load->kind     = kind;
+	load->traction = traction, load->pressure = pressure;
+	load->times = times, load->factors = factors;
+	for (std::size_t k = 0; k + 2 < position.size(); k += 3) {
+		Real square = 0;
+		for (std::size_t d = 0; d < 3; ++d) {
+			load->face.position[d].push_back(position.data()[k + d]);
+			load->face.area[d].push_back(area.data()[k + d]);
+			square += area.data()[k + d] * area.data()[k + d];
+		}
+		load->face.weight.push_back(std::sqrt(square));
+	}
+	load->face.reference = load->face.position;
+	if (columns.has_key("traction")) {
+		const DoubleBuffer field(columns["traction"]);
+		for (std::size_t k = 0; k < std::min(field.size(), position.size()); ++k)
+			load->face.field[k % 3].push_back(field.data()[k]);
+	}
+	if (columns.has_key("pressure")) {
+		const DoubleBuffer field(columns["pressure"]);
+		load->face.pressureField.assign(field.data(), field.data() + std::min(field.size(), load->face.count()));
+	}
+	const std::lock_guard<std::mutex> lock(mutex);
+	tractions.push_back(load);
+	return load;
+}
+
+py::list MpmPoints::loads() const
+{
+	py::list list;
+	for (const auto& load : tractions)
+		list.append(load);
+	return list;
+}
+
+void MpmPoints::loadFaces(mpm::Analysis kind, Real time)
+{
+	points.tractions.clear();
+	for (std::size_t k = 0; k < tractions.size(); ++k) {
+		tractions[k]->load(k, kind, time);
+		points.tractions.push_back(&tractions[k]->face);
+	}
+}
+
+// ---- initial stress -----------------------------------------------------------------------------------------------------
+
+namespace {
+	/* Components of Points::initialStress: row and column of the tensor, and their names. */
+	constexpr int     stressRow[6] = { 0, 1, 2, 1, 0, 0 }, stressColumn[6] = { 0, 1, 2, 2, 2, 1 };
+	const char* const stressName[6] = { "xx", "yy", "zz", "yz", "zx", "xy" };
+
+	/* Whether a law can have a point at this stress, back stress zero: within its yield surface, to rounding. */
+	bool admits(const mpm::Law& law, const Real (&stress)[6])
+	{
+		const Real given = std::sqrt(mpm::Solid::mises2(stress));
+		if (law.kind == mpm::Law::Kind::boucWen) return given <= law.boucWen.yieldStress * (1 + 1e-9); // its update has no yield surface to return to
+		Real              sigma[6], none[6] {};
+		std::vector<Real> internal(std::size_t(mpm::Internals::of(law).columns(6)), 0.);
+		std::copy(stress, stress + 6, sigma);
+		mpm::updateStress<mpm::Solid>(law, none, sigma, internal.data());
+		Real moved = 0, scale = 0;
+		for (int k = 0; k < 6; ++k)
+			moved = std::max(moved, std::abs(sigma[k] - stress[k])), scale = std::max(scale, std::abs(stress[k]));
+		return moved <= 1e-9 * scale;
+	}
+} // namespace
+
+/* Until an analysis is known, the stress waits in a column of its own. */
+void MpmPoints::storeStress(std::size_t p, const Real* tensor)
+{
+	if (points.initialStress.empty()) points.initialStress.assign(6, mpm::Column(points.count(), NaN));
+	for (std::size_t k = 0; k < 6; ++k)
+		points.initialStress[k][p] = tensor[3 * stressRow[k] + stressColumn[k]];
+}
+
+void MpmPoints::setStress(py::object ids, py::object stress)
+{
+	const DoubleBuffer                buffer(stress);
+	const std::lock_guard<std::mutex> lock(mutex);
+	finish();
+	const auto n = std::size_t(py::len(ids));
+	if (buffer.size() != 9 * n) throw std::invalid_argument("mpm.setStress: stress and ids differ in their number of points");
+	std::vector<std::size_t> places;
+	for (std::size_t k = 0; k < n; ++k)
+		places.push_back(indexOf(py::extract<int>(ids[k])));
+	for (std::size_t k = 0; k < n; ++k)
+		storeStress(places[k], buffer.data() + 9 * k);
+}
+
+void MpmPoints::takeInitialStress(mpm::Analysis kind)
+{
+	if (points.initialStress.empty()) return;
+	const bool plane = kind == mpm::Analysis::planeStress, solid = kind == mpm::Analysis::solid;
+	const auto given = [this](std::size_t p) { return !std::isnan(points.initialStress[0][p]); };
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		if (!given(p)) continue;
+		Real       stress[6], greatest = 0;
+		const auto refuseStress = [&](const std::string& why) {
+			std::ostringstream text;
+			text << "material point " << points.id[p] << ".stress = ";
+			for (std::size_t k = 0; k < 6; ++k)
+				text << (k ? ", " : "(") << stressName[k] << " " << stress[k];
+			text << ") Pa: " << why;
+			throw std::runtime_error(text.str());
+		};
+		for (std::size_t k = 0; k < 6; ++k)
+			stress[k] = points.initialStress[k][p], greatest = std::max(greatest, std::abs(stress[k]));
+		if (plane && std::abs(stress[2]) > 1e-12 * greatest) refuseStress("in plane stress zz is zero; leave it out of the initial stress");
+		if (!solid && std::max(std::abs(stress[3]), std::abs(stress[4])) > 1e-12 * greatest)
+			refuseStress("this analysis has no shear out of its plane; give yz = zx = 0");
+		const mpm::Law& law = runtime.laws[std::size_t(points.material[p])];
+		if (!admits(law, stress))
+			refuseStress("it is beyond the yield surface of " + materials[std::size_t(points.material[p])]->getClassName()
+				     + "; give a stress within it, or another material");
+	}
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		if (!given(p)) continue;
+		const auto stored = [&] { return mpm::storedEnergy(kind, runtime.laws[std::size_t(points.material[p])], points, p); };
+		const auto before = points.energies.started ? stored() : mpm::Energies {};
+		for (std::size_t k = 0; k < points.stress.size(); ++k)
+			points.stress[k][p] = points.initialStress[k < (plane ? 2 : 3) || solid ? k : 5][p];
+		for (mpm::Column& column : points.internal)
+			column[p] = 0;
+		if (!points.energies.started) continue;
+		const auto after = stored(); // what the stress brings with it comes from outside
+		const Real V = volume(p), elastic = V * (after.elastic - before.elastic), hardening = V * (after.hardening - before.hardening);
+		points.energies.elastic += elastic, points.energies.hardening += hardening, points.energies.external -= elastic + hardening;
+	}
+	points.initialStress.clear();
 }
 
 py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strain, bool freeXX, bool freeYY, bool freeZZ)
 {
-	const DoubleBuffer      path(strain);
-	const mpm::PointHistory history = mpm::drivePoint(lawOf(*material), { path.data(), path.data() + path.size() }, { freeXX, freeYY, freeZZ });
+	const DoubleBuffer path(strain);
+	const auto         signals = [] {
+                if (PyErr_CheckSignals() != 0) py::throw_error_already_set();
+	};
+	const mpm::PointHistory history = mpm::drivePoint(lawOf(*material), { path.data(), path.data() + path.size() }, { freeXX, freeYY, freeZZ }, signals);
 	py::dict                result;
 	for (const auto& [name, values] :
 		std::initializer_list<std::pair<const char*, const std::vector<double>*>> { { "stress", &history.stress }, { "strain", &history.strain },
@@ -322,11 +513,14 @@ py::object MpmPoints::array(const std::string& name)
 	finish();
 	const std::vector<std::size_t>& order = inOrder();
 	const std::size_t               n     = order.size();
-	if (name == "id" || name == "material") {
+	if (name == "id" || name == "material" || name == "group") {
 		std::int64_t*    out;
 		const py::object bytes = newBytes(n, out);
 		for (std::size_t k = 0; k < n; ++k)
-			out[k] = name == "id" ? points.id[order[k]] : materials[std::size_t(points.material[order[k]])]->id;
+			out[k] = name == "id"           ? points.id[order[k]]
+				 : name == "material"   ? materials[std::size_t(points.material[order[k]])]->id
+				 : points.group.empty() ? 0
+							: points.group[order[k]];
 		return py::make_tuple(bytes, "int64", py::make_tuple(n));
 	}
 	const Quantity quantity = this->quantity(name);
@@ -334,7 +528,7 @@ py::object MpmPoints::array(const std::string& name)
 	if (width == 0)
 		throw std::invalid_argument(
 			"mpm.array('" + name
-			+ "'): no such quantity; choose 'id', 'material', 'position', 'displacement', 'velocity', 'mass', 'volume', 'stress', "
+			+ "'): no such quantity; choose 'id', 'material', 'group', 'position', 'displacement', 'velocity', 'mass', 'volume', 'size', 'stress', "
 			  "'strain', 'backStress', 'F', 'plasticStrain', 'dissipation' or 'vonMises'");
 	double*          out;
 	const py::object bytes = newBytes(n * width, out);
@@ -369,6 +563,7 @@ MpmPoints::Quantity MpmPoints::quantity(const std::string& name) const
 					out[d] = body ? points.position[std::size_t(d)][p] - body->state->refPos[d] : NaN;
 			} };
 	}
+	if (name == "size") return scalar([this](std::size_t p) { return points.size[p]; });
 	if (name == "mass") return scalar([this](std::size_t p) { return points.mass[p]; });
 	if (name == "volume") return scalar([this](std::size_t p) { return volume(p); });
 	if (name == "plasticStrain") return scalar([this](std::size_t p) { return plasticStrain(p); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "MpmTraction.hpp"
 #include "kernel/Version.hpp"
 #include "kernel/solver/Solver.hpp"
 #include <core/Body.hpp>
@@ -23,6 +24,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e
 template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
 {
 	archive& make_nvp("id", points.id) & make_nvp("material", points.material) & make_nvp("fixed", points.fixed);
+	archive& make_nvp("group", points.group) & make_nvp("initialStress", points.initialStress);
 	archive& make_nvp("mass", points.mass) & make_nvp("volume0", points.volume0) & make_nvp("size", points.size);
 	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
@@ -87,10 +89,25 @@ public:
 	Real     volume(std::size_t p) const;
 	Real     vonMises(std::size_t p) const;
 
-	/* For py/mpm: adds points at positions (buffer of N x 3 doubles), of a thickness (0: 3D) or as rings about x = 0, and, if asked, a body for each;
-	 * returns their ids. */
-	::boost::python::object append(::boost::python::object positions, Real spacing, Real thickness, bool ring, const shared_ptr<Material>& material,
-		const Vector3r& velocity, bool bodies);
+	/* Gives the points with an initial stress this stress, in the components of an analysis; throws, and changes nothing, where the
+	 * analysis or the point's law cannot have it. */
+	void takeInitialStress(mpm::Analysis analysis);
+
+	/* For py/mpm: adds points, described by arrays of N rows of doubles under these names: position, velocity (3 numbers a row), volume, mass, size,
+	 * depth (thickness, 0 of a 3D point, minus the circumference of a ring) and, if given, stress (9), and a body for each unless bodies is false, with
+	 * YADE's mask and colour where they are not None. group: its number, or its name where that is not empty. Returns their ids. Signals are
+	 * handled before any point is made. */
+	::boost::python::object append(::boost::python::dict columns, const shared_ptr<Material>& material, int group, const std::string& groupName,
+		bool bodies, ::boost::python::object mask, ::boost::python::object color);
+	/* For py/mpm: a load on a face, with arrays position, area (vectors, 3 numbers a row) and, if given, traction (3) and pressure (1) of its quadrature
+	 * points; see MpmTraction. */
+	shared_ptr<MpmTraction> addTraction(::boost::python::dict columns, int kind, const Vector3r& traction, Real pressure, const std::vector<Real>& times,
+		const std::vector<Real>& factors);
+	::boost::python::list   loads() const;
+	/* Sets the loads on faces at a time. */
+	void loadFaces(mpm::Analysis analysis, Real time);
+	/* For py/mpm: Cauchy stress (buffer of N x 9 doubles) of the points with these ids. */
+	void setStress(::boost::python::object ids, ::boost::python::object stress);
 	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
 	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
@@ -105,12 +122,18 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",
 		((mpm::Points, points, , Attr::hidden, "Structure of arrays"))
+		((std::vector<std::string>, groups, , Attr::hidden, "Names of groups 1, 2, ... of points; empty where a group has a number only"))
+		((std::vector<shared_ptr<MpmTraction>>, tractions, , Attr::hidden, "Loads on faces"))
 		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
 		,/*ctor*/,
-		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")
+		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` and :yref:`mpm.points` call it.")
+		.def("addTraction", &MpmPoints::addTraction, "A load on a face; :yref:`mpm.traction` calls it.")
+		.add_property("tractions", &MpmPoints::loads, "Loads on faces, by :yref:`mpm.traction`; a list [-].")
+		.def("setStress", &MpmPoints::setStress, "Initial stress; :yref:`mpm.setStress` calls it.")
+		.def_readonly("groups", &MpmPoints::groups, "Names of groups 1, 2, ... of points [-].")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
@@ -131,6 +154,8 @@ private:
 
 	const Directory& directory();
 
+	int            groupOf(int number, const std::string& name);
+	void           storeStress(std::size_t p, const Real* tensor);
 	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
 	mpm::Internals internals(std::size_t p) const;
 	bool           inUse(std::size_t material) const;

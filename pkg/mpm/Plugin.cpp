@@ -3,9 +3,10 @@
 #include "MpmEngine.hpp"
 #include "MpmPoints.hpp"
 #include "MpmState.hpp"
+#include "MpmTraction.hpp"
 #include "MpmVtkRecorder.hpp"
 #include "MpmWall.hpp"
 
 namespace yade {
-YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmEngine)(MpmVtkRecorder));
+YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmTraction)(MpmEngine)(MpmVtkRecorder));
 } // namespace yade

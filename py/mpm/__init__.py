@@ -9,8 +9,9 @@
 	O.run(1000, True)
 	sigma = mpm.array('stress')
 
-fill makes points, array looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single
-point through strains (PointHistory), readStl reads a surface to fill. Classes: MpmEngine, MpmWall, MpmState, MpmVtkRecorder, and the
+fill makes points of a region, points makes them from arrays, setStress gives them a stress to start with, traction loads a face; array
+looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single point through strains
+(PointHistory), readStl reads a surface to fill, readMesh a mesh. Classes: MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the
 materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
 
 Units are SI, tension is positive.
@@ -21,12 +22,14 @@ import yade.wrapper
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
 from .driver import PointHistory, drive
-from .points import array, criticalTimeStep, fill
+from .load import traction
+from .mesh import readMesh
+from .points import array, criticalTimeStep, fill, points, setStress
 from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
+__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
 
 
 def __dir__(): return __all__

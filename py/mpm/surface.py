@@ -12,11 +12,14 @@ def readStl(file):
 	:param str file: name of an STL file, text or binary; its numbers are taken for metres
 	:returns: a ``gts.Surface``, normals outward
 	:raises FileNotFoundError: if there is no such file
-	:raises ValueError: if it holds no triangles, or they do not close
+	:raises ValueError: if file is no name of a file, or the file holds no triangles, or they do not close
 	"""
 	import gts
 	from vtkmodules.vtkIOGeometry import vtkSTLReader
-	if not os.path.exists(file): raise FileNotFoundError('mpm.readStl: there is no file %r' % (file,))
+	if not isinstance(file, (str, os.PathLike)) or not os.fspath(file): raise ValueError('mpm.readStl: file = %r: give the name of an STL file' % (file,))
+	file = os.fspath(file)
+	if not os.path.isfile(file): raise FileNotFoundError('mpm.readStl: there is no file %r; check the name and the working directory' % (file,))
+	if not os.access(file, os.R_OK): raise PermissionError('mpm.readStl: the file %r cannot be read; check its permissions' % (file,))
 	reader = vtkSTLReader()  # merges the corners that triangles share
 	reader.SetFileName(file)
 	reader.Update()

@@ -10,7 +10,8 @@ namespace {
 	constexpr int row[6] = { 0, 1, 2, 1, 0, 0 }, column[6] = { 0, 1, 2, 2, 2, 1 };
 
 	/* axes: those of the stress state, in terms of the path's. */
-	template <class S> PointHistory drive(const Law& law, const std::vector<double>& strain, const std::array<int, 3>& axes)
+	template <class S>
+	PointHistory drive(const Law& law, const std::vector<double>& strain, const std::array<int, 3>& axes, const std::function<void()>& pause)
 	{
 		const Internals     layout = Internals::of(law);
 		const std::size_t   count  = strain.size() / 9;
@@ -19,9 +20,15 @@ namespace {
 		Response            response;
 		PointHistory        history;
 		for (std::vector<double>* tensors : { &history.stress, &history.backStress, &history.strain })
-			tensors->assign(9 * count, 0.);
+			tensors->reserve(9 * count);
 
+		constexpr std::size_t chunk = 256; // entries between two pauses
 		for (std::size_t i = 0; i < count; ++i) {
+			if (i % chunk == 0) {
+				if (pause) pause();
+				for (std::vector<double>* tensors : { &history.stress, &history.backStress, &history.strain })
+					tensors->resize(9 * std::min(count, i + chunk), 0.);
+			}
 			auto   at = [&](int r, int c) { return 9 * i + std::size_t(3 * axes[std::size_t(r)] + axes[std::size_t(c)]); };
 			double increment[S::N];
 			for (int k = 0; k < S::N; ++k) {
@@ -53,11 +60,12 @@ namespace {
 		return history;
 	}
 
-	void requirePath(const std::vector<double>& strain, const std::array<bool, 3>& free)
+	void requirePath(const std::vector<double>& strain, const std::array<bool, 3>& free, const std::function<void()>& pause)
 	{
 		if (strain.size() % 9 != 0)
 			throw std::invalid_argument("strain has " + std::to_string(strain.size()) + " numbers: give nine, a 3x3 tensor, an entry of the path");
-		for (std::size_t i = 0; i < strain.size(); i += 9)
+		for (std::size_t i = 0; i < strain.size(); i += 9) {
+			if (pause && i % (9 * 4096) == 0) pause();
 			for (std::size_t r = 0; r < 3; ++r)
 				for (std::size_t c = 0; c < 3; ++c) {
 					if (r == c && free[r]) continue;
@@ -74,24 +82,25 @@ namespace {
 						text << ": give a finite number";
 					throw std::invalid_argument(text.str());
 				}
+		}
 	}
 } // namespace
 
-PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free)
+PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free, const std::function<void()>& pause)
 {
 	const std::string error = validate(law);
 	if (!error.empty()) throw std::invalid_argument(error);
-	requirePath(strain, free);
+	requirePath(strain, free, pause);
 	std::array<int, 3> axes {};
 	std::size_t        kept = 0;
 	for (const bool wanted : { false, true })
 		for (int d = 0; d < 3; ++d)
 			if (free[std::size_t(d)] == wanted) axes[kept++] = d;
 	switch (std::count(free.begin(), free.end(), true)) {
-		case 0: return drive<Solid>(law, strain, axes);
-		case 1: return drive<FreeNormals<2>>(law, strain, axes);
-		case 2: return drive<FreeNormals<1>>(law, strain, axes);
-		default: return drive<FreeNormals<0>>(law, strain, axes);
+		case 0: return drive<Solid>(law, strain, axes, pause);
+		case 1: return drive<FreeNormals<2>>(law, strain, axes, pause);
+		case 2: return drive<FreeNormals<1>>(law, strain, axes, pause);
+		default: return drive<FreeNormals<0>>(law, strain, axes, pause);
 	}
 }
 

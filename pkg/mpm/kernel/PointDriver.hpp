@@ -3,6 +3,7 @@
 
 #include "laws/Law.hpp"
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace yade::mpm {
@@ -19,7 +20,9 @@ struct PointHistory {
 no stress instead of a prescribed strain; what the path says of them is not read. Where some are free, the back stress
 stands in the subspace of the others (it has no component there).
 
-Throws std::invalid_argument on a law that validate() refuses, on a path that is not one, and on a step that the law cannot follow. */
-PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free = { false, false, false });
+Throws std::invalid_argument on a law that validate() refuses, on a path that is not one, and on a step that the law cannot follow.
+pause, where given, is called every few hundred entries; an exception that it throws ends the run. */
+PointHistory drivePoint(
+	const Law& law, const std::vector<double>& strain, const std::array<bool, 3>& free = { false, false, false }, const std::function<void()>& pause = {});
 
 } // namespace yade::mpm

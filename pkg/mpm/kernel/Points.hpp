@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -29,18 +30,23 @@ struct Energies {
 	}
 };
 
+struct Traction;
+
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched, moving, spin, torque (no contacts).
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress), fixed (no
+prescribed motion), touched, moving, spin, torque (no contacts).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
 	std::vector<int>          material;        // index into the scene's table of laws
+	std::vector<int>          group;           // number of the point's group, 0: none; empty while the scene has no groups
 	Column                    mass, volume0;   // [kg], [m3] undeformed
 	Column                    size, thickness; // lattice spacing [m]; thickness [m] of a plane point, 0 of a 3D one, minus the circumference of a ring
 	Columns                   position { 3 }, velocity { 3 }; // all three axes, whatever the analysis
 	Columns                   stress, internal, deformation;  // deformation: F, row-major
+	Columns                   initialStress;                  // xx yy zz yz zx xy [Pa], until the next step takes it over; NaN where none is given
 	Columns                   advance;                        // displacement of the current step, not yet in position while its stress update is pending
 	Columns                   force;                          // external, but for gravity [N]
 	Column                    thicknessStretch;               // F_zz of thinning plane stress, hoop stretch of a ring
@@ -52,6 +58,8 @@ struct Points {
 	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
 	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
 
+	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
+
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
 
 	std::size_t count() const { return id.size(); }
@@ -61,7 +69,7 @@ struct Points {
 	{
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
-		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &advance, &force, &moving, &spin, &torque })
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -72,6 +80,7 @@ struct Points {
 	{
 		visit(id);
 		visit(material);
+		visit(group);
 		visit(fixed);
 		visit(touched);
 	}
@@ -80,6 +89,9 @@ struct Points {
 	void append(int id_, int material_, const double* x, const double* v, double mass_, double volume_, double size_, double thickness_)
 	{
 		id.push_back(id_), material.push_back(material_);
+		if (!group.empty()) group.push_back(0);
+		for (Column& column : initialStress)
+			column.push_back(std::numeric_limits<double>::quiet_NaN());
 		mass.push_back(mass_), volume0.push_back(volume_), size.push_back(size_), thickness.push_back(thickness_);
 		for (int d = 0; d < 3; ++d)
 			position[d].push_back(x[d]), velocity[d].push_back(v[d]);

@@ -64,6 +64,8 @@ public:
 			if (!transfer.points.touched.empty()) spreadTorques(transfer, t, m_external);
 		}, m_external);
 	}
+	/* Nodal external forces that keepSums() has found; loads that are not the points' are added. */
+	NodeVector<dim>& external() { return m_external; }
 	/* Acceleration that damping takes away: for the update of the nodes. */
 	NodeVector<dim>* damping() { return &m_damping; }
 	/* After the update: velocities at the start of the step, and their change. */

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "EnergyBalance.hpp"
+#include "FaceLoads.hpp"
 #include "NullSpaceFilter.hpp"
 #include "PointChecks.hpp"
 #include "StableStep.hpp"
@@ -108,6 +109,7 @@ private:
 	std::vector<TileReport>  m_reports;
 	EnergyBalance<D>         m_balance;
 	AddedWallWork            m_added;
+	FaceLoads<D>             m_faces;
 	NodeVector<dim>          m_roundTrip;           // scratch of the mass correction
 	std::optional<GridNodes> m_shown;               // nodes of the last step, once the grid has been laid anew
 	std::vector<Wall::Kind>  m_kinds;               // of the walls, as the constraints have been built for
@@ -206,7 +208,10 @@ private:
 	void updateVelocities()
 	{
 		const bool energies = m_control.trackEnergy, pic = m_control.flip < 1;
+		const bool faces = !points().tractions.empty();
+		if (faces) m_faces.locate(m_d, m_control.time), m_faces.spread(m_d, m_d.fields.force);
 		if (energies) m_balance.keepSums(m_d, m_control);
+		if (energies && faces) m_faces.spread(m_d, m_balance.external());
 		if (pic) m_d.constraints.keepMomentum(m_d.fields.momentum);
 		updateNodes(m_d, m_control, energies ? m_balance.damping() : nullptr);
 		const double share = pic ? m_d.constraints.addMomentumLoss(velocityAtStart(m_d.fields), (1 - m_control.flip) / m_control.dt, m_control.dt) : 0;
@@ -222,6 +227,7 @@ private:
 	void endMotion()
 	{
 		if (m_control.trackEnergy) m_balance.addWork(m_d, m_control, m_added, m_roundTrip);
+		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
 		if (!points().touched.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
 		if (m_control.filter > 0) filterVelocities(m_d, m_control);
 	}
