@@ -23,7 +23,7 @@ namespace {
 shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 {
 	for (const auto& item : scene.miscParams)
-		if (auto points = dynamic_pointer_cast<MpmPoints>(item)) return points;
+		if (auto points = boost::dynamic_pointer_cast<MpmPoints>(item)) return points;
 	return {};
 }
 
@@ -280,7 +280,7 @@ py::object MpmPoints::append(
 			state->vel                 = velocity;
 			state->mass                = mass;
 			state->inertia             = Vector3r::Constant(.4 * mass * sphere->radius * sphere->radius);
-			state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
+			state->points              = boost::static_pointer_cast<MpmPoints>(shared_from_this());
 			body->state                = state;
 			body->shape                = sphere;
 			body->material             = material;

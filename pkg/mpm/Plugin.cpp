@@ -5,6 +5,9 @@
 #include "MpmState.hpp"
 #include "MpmVtkRecorder.hpp"
 #include "MpmWall.hpp"
+#ifdef YADE_PLUGIN_BUILT_FOR // not where YADE's own build compiles this folder
+#	include <PluginLoad.hpp>
+#endif
 
 namespace yade {
 YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmEngine)(MpmVtkRecorder));
