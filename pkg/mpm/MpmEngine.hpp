@@ -4,6 +4,7 @@
 #include "AsWritten.hpp"
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
+#include "Sequences.hpp"
 #include "kernel/Continuity.hpp"
 #include <core/GlobalEngine.hpp>
 #include <core/Timing.hpp>
@@ -56,6 +57,7 @@ public:
 		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
 		,
 		.def(AsWritten())
+		.def(Sequences<MpmWall>())
 		.def("criticalTimeStep", &MpmEngine::criticalTimeStep, "Largest stable step of the present scene [s]: 2/omega of the discrete operator with elastic stiffness, limited so that the fastest point crosses less than a cell. doc/method.md has the derivation.")
 		.add_property("gridBytes", &MpmEngine::gridBytes, "Memory of the grid [bytes].")
 	);

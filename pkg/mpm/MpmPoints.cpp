@@ -23,7 +23,7 @@ namespace {
 shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 {
 	for (const auto& item : scene.miscParams)
-		if (auto points = dynamic_pointer_cast<MpmPoints>(item)) return points;
+		if (auto points = boost::dynamic_pointer_cast<MpmPoints>(item)) return points;
 	return {};
 }
 
@@ -310,7 +310,7 @@ py::object MpmPoints::append(
 		state->vel                 = Vector3r(velocity.data()[3 * k], velocity.data()[3 * k + 1], velocity.data()[3 * k + 2]);
 		state->mass                = mass.data()[k];
 		state->inertia             = Vector3r::Constant(.4 * state->mass * sphere->radius * sphere->radius);
-		state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
+		state->points              = boost::static_pointer_cast<MpmPoints>(shared_from_this());
 		body->state                = state;
 		body->shape                = sphere;
 		body->material             = material;

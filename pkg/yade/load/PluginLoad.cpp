@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Runs when YADE loads the plugin, before any class registers: makes sure that the running YADE is the one that the plugin
-was built for, and lets Python find the plugin's own modules as parts of the package yade. */
+was built for, and lets Python find the plugin's own modules as parts of the package yade. Compiled against the declarations
+in pkg/yade or against YADE's own headers, like the rest of the plugin. */
 #include <PluginLoad.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ was built for, and lets Python find the plugin's own modules as parts of the pac
 #include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
 #include <core/TimeStepper.hpp>
+#include <cstring>
 #include <dlfcn.h>
 #include <iostream>
 #include <link.h>
@@ -20,10 +22,10 @@ was built for, and lets Python find the plugin's own modules as parts of the pac
 /* Set by CMake: the version that was installed when the plugin was configured, and the folder, beside the plugin, that holds
 Python modules to be imported as yade.<module>. */
 #ifndef YADE_PLUGIN_BUILT_FOR
-#error "YADE_PLUGIN_BUILT_FOR is not defined (link the CMake target yade::plugin)"
+#	error "YADE_PLUGIN_BUILT_FOR is not defined (link the CMake target yade::plugin)"
 #endif
 #ifndef YADE_PLUGIN_PYTHON_FOLDER
-#define YADE_PLUGIN_PYTHON_FOLDER "mpm-py"
+#	define YADE_PLUGIN_PYTHON_FOLDER "mpm-py"
 #endif
 
 namespace yade {
@@ -36,9 +38,26 @@ namespace {
 		~PythonLock() { PyGILState_Release(state); }
 	};
 
-	std::string symbolOfVtable(const std::string& className)
+	std::string symbolOfVtable(const std::string& className) { return "_ZTVN4yade" + std::to_string(className.size()) + className + "E"; }
+
+	/* A pointer to a virtual member function holds one more than the place of the function in the vtable, in bytes (the
+	Itanium C++ ABI). */
+	template <class Function> std::size_t placeInVtable(Function function)
 	{
-		return "_ZTVN4yade" + std::to_string(className.size()) + className + "E";
+		static_assert(sizeof(Function) == 2 * sizeof(std::ptrdiff_t), "not a pointer to a member function of the Itanium C++ ABI");
+		std::ptrdiff_t raw[2];
+		std::memcpy(raw, &function, sizeof raw);
+		return static_cast<std::size_t>(raw[0] - 1);
+	}
+
+	/* The vtable that the headers describe: two words and one for each virtual function. */
+	template <class Function> std::size_t bytesOfVtable(Function last) { return 2 * sizeof(void*) + placeInVtable(last) + sizeof(void*); }
+
+	/* In a class that is also an Indexable, incrementMaxCurrentlyUsedClassIndexOfKin(), which is protected, comes after
+	getMaxCurrentlyUsedClassIndexOfKin(), and the base Indexable adds a table of its own: two words and its seven functions. */
+	template <class Function> std::size_t bytesOfIndexableVtable(Function lastButOne)
+	{
+		return bytesOfVtable(lastButOne) + sizeof(void*) + 9 * sizeof(void*);
 	}
 
 	/* The allocator rounds a size up, and may hand out a somewhat larger block that was left over: the smallest of many tells
@@ -59,12 +78,11 @@ namespace {
 	/* Told to the allocator's rounding, 16 bytes. */
 	bool objectHasSize(const char* className, std::size_t size)
 	{
-		const std::size_t wanted = smallestBlock(
-		        (size + 23) / 16 * 16 - 8, [&] { return ::operator new(size); }, [](void* block) { ::operator delete(block); });
+		const std::size_t wanted =
+			smallestBlock((size + 23) / 16 * 16 - 8, [&] { return ::operator new(size); }, [](void* block) { ::operator delete(block); });
 		const std::size_t found = smallestBlock(
-		        wanted,
-		        [&] { return static_cast<void*>(Singleton<ClassFactory>::instance().createPure(className)); },
-		        [](void* object) { delete static_cast<Factorable*>(object); });
+			wanted, [&] { return static_cast<void*>(Singleton<ClassFactory>::instance().createPure(className)); },
+			[](void* object) { delete static_cast<Factorable*>(object); });
 		return found == wanted;
 	}
 
@@ -79,10 +97,10 @@ namespace {
 
 	std::string attributeMismatch()
 	{
-		const Real number = 1234.5;
+		const Real  number = 1234.5;
 		std::string wrong;
-		const auto check = [&](bool good, const char* name) {
-			if (!good && wrong.empty()) wrong = name;
+		const auto  check = [&](bool good, const char* name) {
+                        if (!good && wrong.empty()) wrong = name;
 		};
 		check(readsBack<Engine, std::string>("GlobalEngine", "label", &Engine::label, "probe"), "Engine.label");
 		check(readsBack<PeriodicEngine, long>("PeriodicEngine", "nDone", &PeriodicEngine::nDone, 42), "PeriodicEngine.nDone");
@@ -123,27 +141,27 @@ namespace {
 			PyErr_Clear(); // loaded by something else than the Python package yade: nothing to extend
 		}
 	}
-}
+} // namespace
 
 const std::vector<ExpectedClass>& expectedClasses()
 {
-	/* A vtable holds two words and one per virtual function; a second base with virtual functions adds a table of its own.
-	Looking up its size takes the dynamic linker a search through all symbols of a library, so that a class stands for its bases. */
+	/* Looking up the size of a vtable takes the dynamic linker a search through all symbols of a library, so that a class
+	stands for its bases. */
 	static const std::vector<ExpectedClass> classes = {
 		{ "Engine", sizeof(Engine), 0 },
 		{ "GlobalEngine", sizeof(GlobalEngine), 0 },
 		{ "PartialEngine", sizeof(PartialEngine), 0 },
-		{ "PeriodicEngine", sizeof(PeriodicEngine), 16 * 8 },
-		{ "TimeStepper", sizeof(TimeStepper), 17 * 8 },
-		{ "Scene", sizeof(Scene), 14 * 8 },
-		{ "Body", sizeof(Body), 15 * 8 },
+		{ "PeriodicEngine", sizeof(PeriodicEngine), bytesOfVtable(&PeriodicEngine::action) },
+		{ "TimeStepper", sizeof(TimeStepper), bytesOfVtable(&TimeStepper::computeTimeStep) },
+		{ "Scene", sizeof(Scene), bytesOfVtable(&Scene::pyHandleCustomCtorArgs) },
+		{ "Body", sizeof(Body), bytesOfVtable(&Body::userForcedDisplacementRedrawHook) },
 		{ "BodyContainer", sizeof(BodyContainer), 0 },
-		{ "State", sizeof(State), 28 * 8 },
+		{ "State", sizeof(State), bytesOfIndexableVtable(&State::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "Material", sizeof(Material), 0 },
 		{ "ElastMat", sizeof(ElastMat), 0 },
-		{ "FrictMat", sizeof(FrictMat), 30 * 8 },
+		{ "FrictMat", sizeof(FrictMat), bytesOfIndexableVtable(&FrictMat::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "Shape", sizeof(Shape), 0 },
-		{ "Sphere", sizeof(Sphere), 28 * 8 },
+		{ "Sphere", sizeof(Sphere), bytesOfIndexableVtable(&Sphere::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "EnergyTracker", sizeof(EnergyTracker), 0 },
 	};
 	return classes;
@@ -162,12 +180,12 @@ std::string layoutMismatch(const std::vector<ExpectedClass>& expected)
 		if (cls.vtableSize != 0) {
 			void* const vtable = dlsym(RTLD_DEFAULT, symbolOfVtable(cls.name).c_str());
 			Dl_info     info;
-			ElfW(Sym)*  symbol = nullptr;
+			ElfW(Sym)* symbol = nullptr;
 			if (!vtable || !dladdr1(vtable, &info, reinterpret_cast<void**>(&symbol), RTLD_DL_SYMENT) || !symbol)
 				return "this YADE has no class " + name;
 			if (symbol->st_size != cls.vtableSize)
 				return "in this YADE " + name + " has a vtable of " + std::to_string(symbol->st_size) + " bytes instead of "
-				        + std::to_string(cls.vtableSize);
+				       + std::to_string(cls.vtableSize);
 		}
 		if (!objectHasSize(cls.name, cls.size))
 			return "in this YADE a " + name + " does not have the expected size of " + std::to_string(cls.size) + " bytes";
@@ -204,7 +222,7 @@ bool pluginFitsRunningYade()
 		std::string refusal;
 		if (!reason.empty()) {
 			refusal = "yade-mpm: the plugin does not load because " + reason
-			        + "; rebuild it against the installed YADE " YADE_PLUGIN_BUILT_FOR ", or port pkg/yade (see its README) to this one.";
+				  + "; build it anew for this one, with its source tree if it is no release that pkg/yade declares (see its README).";
 			std::cerr << refusal << std::endl;
 		}
 		extendPackagePath(refusal);

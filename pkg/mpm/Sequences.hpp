@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+#include <boost/python.hpp>
+#include <boost/shared_ptr.hpp>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace yade {
+
+/* Python lists and tuples for an attribute of type std::vector<boost::shared_ptr<T>>. YADE has conversions for vectors of
+its own classes, none for those of a plugin's. Stands among the definitions of the class with such an attribute:
+.def(Sequences<MpmWall>()). An element that is None becomes an empty pointer; one of another class is a TypeError. */
+template <class T> class Sequences : public boost::python::def_visitor<Sequences<T>> {
+	using Vector = std::vector<boost::shared_ptr<T>>;
+
+	struct ToPython {
+		static PyObject* convert(const Vector& vector)
+		{
+			boost::python::list list;
+			for (const auto& item : vector)
+				list.append(item);
+			return boost::python::incref(list.ptr());
+		}
+	};
+	static void* convertible(PyObject* object) { return PyList_Check(object) || PyTuple_Check(object) ? object : nullptr; }
+	static void  construct(PyObject* object, boost::python::converter::rvalue_from_python_stage1_data* data)
+	{
+		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
+		Vector                      items;
+		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)
+			items.push_back(boost::python::extract<boost::shared_ptr<T>>(sequence[i])());
+		void* const storage = reinterpret_cast<boost::python::converter::rvalue_from_python_storage<Vector>*>(data)->storage.bytes;
+		data->convertible   = new (storage) Vector(std::move(items));
+	}
+
+	friend class boost::python::def_visitor_access;
+	template <class Class> void visit(Class&) const
+	{
+		namespace converter = boost::python::converter;
+		const auto* known   = converter::registry::query(boost::python::type_id<Vector>());
+		if (!known || !known->m_to_python) boost::python::to_python_converter<Vector, ToPython>();
+		if (!known || !known->rvalue_chain) converter::registry::push_back(&convertible, &construct, boost::python::type_id<Vector>());
+	}
+};
+
+} // namespace yade
