@@ -2,6 +2,8 @@
 #pragma once
 
 #include "AsWritten.hpp"
+#include "BodyLinks.hpp"
+#include "EngineOrder.hpp"
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
 #include "kernel/Continuity.hpp"
@@ -68,20 +70,8 @@ private:
 	std::size_t                                m_bodies       = 0; // points that have one
 	std::size_t                                m_checkedCount = 0;
 	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable
-
-	enum class Role { other, self, stepper, newton, loop };
-	struct Checked { // of O.engines, when its order was checked
-		Engine* engine;
-		bool    dead;
-		Role    role; // what an engine means for the time step
-	};
-	std::vector<Checked> m_checkedEngines;
-
-	struct Link { // held, so that their addresses are theirs alone
-		shared_ptr<Body>  body;
-		shared_ptr<State> state;
-	};
-	std::vector<Link> m_links; // bodies known to be points', by id
+	EngineOrder                                m_order;
+	BodyLinks                                  m_links;
 
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
@@ -92,20 +82,12 @@ private:
 	bool                         stretches(mpm::Analysis kind) const;
 	void                         checkPoints(mpm::Analysis kind) const;
 	void                         checkGimp() const;
-	void                         checkEngineOrder();
 	void                         planFilter(mpm::StepControl& control);
-	bool                         checkClocks() const;
 	bool                         stiffnessChanged(const mpm::StepControl& control);
 	void                         checkStep(const mpm::StepControl& control, bool stepper);
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
 	void                         checkContinuity(const mpm::StepControl& control);
-	bool                         link(std::size_t p);
 	void                         readBodies();
-	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
-	void                         takeVelocity(std::size_t p, bool touched, const Vector3r& shown);
-	void                         refuseStates(int dim) const;
-	void                         readContact(std::size_t p, bool touched, State& state);
-	void                         writeBodies();
 	void                         reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
