@@ -10,6 +10,10 @@
 
 namespace yade {
 
+namespace {
+	constexpr Real unscaled = -1; // State.densityScaling of a body that no engine has scaled
+} // namespace
+
 /* Whether the point's body still is in O.bodies, looked up anew. */
 bool BodyLinks::link(Scene& scene, MpmPoints& points, std::size_t p)
 {
@@ -43,6 +47,8 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
 	const int* const  ids       = points.id.data();
 	const auto* const materials = all.materials.data();
+
+	const Real* const mass = points.mass.data();
 
 	bool refused  = false;
 	Real offPlane = 0;
@@ -81,9 +87,28 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 		const auto real    = [](const auto& i) { return i.second->geom && i.second->phys; };
 		const bool touched = !body.intrs.empty() && std::any_of(body.intrs.begin(), body.intrs.end(), real);
 		if (touched || before) readContact(scene, points, p, touched, state);
+		const Vector3r& torque = forces.getTorque(ids[p]);
+		if (body.clumpId != Body::ID_NONE || body.subdomain != MpmState::subdomainOfPoints || state.densityScaling != unscaled
+			|| (!touched && (torque[0] != 0 || torque[1] != 0 || torque[2] != 0)))
+			refuseBody(scene, body);
+		if (state.mass != mass[p]) changes.otherMass.push_back(p);
 		if (body.material.get() != materials[points.material[p]].get()) changes.otherMaterial.push_back(p);
 	}
 	if (offPlane != 0 || refused) refuseStates(scene, points, dim);
+}
+
+/* Complains of what YADE lets one do to a body, and a material point cannot follow. */
+void BodyLinks::refuseBody(Scene& scene, const Body& body) const
+{
+	const std::string name = "O.bodies[" + std::to_string(body.id) + "]";
+	require(body.clumpId == Body::ID_NONE, name, "clumpId", body.clumpId,
+		"a material point cannot be a member of a clump, which moves as a rigid body; release it (O.bodies.releaseFromClump), and make rigid parts of grains");
+	require(body.subdomain == MpmState::subdomainOfPoints, name, "subdomain", body.subdomain,
+		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
+	require(body.state->densityScaling == unscaled, name + ".state", "densityScaling", body.state->densityScaling,
+		"the mass of material points is not scaled; set NewtonIntegrator.densityScaling = False and this to -1");
+	refuse("O.forces", "t(" + std::to_string(body.id) + ")", scene.forces.getTorque(body.id).transpose(),
+		"only a contact can apply a torque to a material point; apply a couple of forces to points around it");
 }
 
 /* The change that a script has made to a body's velocity is a change of the point's own velocity; the kinetic energy that it adds

@@ -12,11 +12,11 @@ not be dropped by the thread of the simulation, which does not hold Python's loc
 class BodyLinks {
 public:
 	struct Changes { // that the engine must act on; indices of points
-		std::vector<std::size_t> moved, otherMaterial;
+		std::vector<std::size_t> moved, otherMaterial, otherMass;
 		bool                     erased = false;
 	};
-	/* Forces, velocities, prescribed components and contacts go into the points' columns. Throws if one of them is not finite, or
-	out of the plane of a plane analysis. */
+	/* Forces, velocities, prescribed components and contacts go into the points' columns. Throws if one of them is not finite or out of
+	the plane of a plane analysis, or if a body has been given a property that a material point cannot have. */
 	Changes read(Scene& scene, MpmPoints& points);
 	/* Positions and velocities, and the spin where a point is in contact. Asks the collider to run if a body has outrun its bound. */
 	void write(Scene& scene, const mpm::Points& points) const;
@@ -41,7 +41,8 @@ private:
 	bool                    link(Scene& scene, MpmPoints& points, std::size_t p);
 	template <int dim> void readStates(Scene& scene, MpmPoints& points, Changes& changes);
 	void                    takeVelocity(mpm::Points& points, std::size_t p, bool touched, const Vector3r& shown) const;
-	[[noreturn]] void       refuseStates(Scene& scene, const mpm::Points& points, int dim) const;
+	void                    refuseStates(Scene& scene, const mpm::Points& points, int dim) const;
+	void                    refuseBody(Scene& scene, const Body& body) const;
 	void                    readContact(Scene& scene, mpm::Points& points, std::size_t p, bool touched, State& state) const;
 };
 

@@ -30,7 +30,7 @@ void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const En
 	m_checked.clear();     // a bad order is complained of each time
 	if (here == n) return; // asked for its time step outside O.engines
 	for (const auto& engine : engines)
-		if (engine.get() != &self && !engine->dead && engine->getClassName() == self.getClassName())
+		if (engine.get() != &self && !engine->dead && !self.dead && engine->getClassName() == self.getClassName())
 			throw std::runtime_error(
 				"O.engines has two MpmEngines, which would both move the same points; keep one, or set dead = True on the other");
 	for (std::size_t k = 0; k < n; ++k) {

@@ -3,8 +3,10 @@
 #include "Action.hpp"
 #include "BadInput.hpp"
 #include "Materials.hpp"
+#include "kernel/LoadedColumns.hpp"
 #include "kernel/Text.hpp"
 #include <algorithm>
+#include <atomic>
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
 #include <omp.h>
@@ -12,7 +14,8 @@
 namespace yade {
 
 namespace {
-	const char* const self = "MpmEngine";
+	const char* const self                = "MpmEngine";
+	constexpr long    longestLookInterval = 1000; // steps between two looks at the gaps
 
 	template <class Value> Value choose(const char* attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
 	{
@@ -59,17 +62,20 @@ void MpmEngine::step()
 	} clock(*timingDeltas);
 
 	timingDeltas->start();
-	const auto       lock    = attach();
-	mpm::StepControl control = prepare();
+	const Attached   attached = attach();
+	mpm::StepControl control  = prepare();
 	if (m_points->count() == 0) return;
 	readBodies();
 	if (m_points->count() == 0) return; // the last ones have been erased
+	checkValues();
 	const bool stepper = m_order.checkClocks(timeStepSafety > 0);
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
 	planFilter(control);
 	if (TimingInfo::enabled) control.clock = &clock, clock.lap("bodies to points");
-	m_solver->step(control);
+	m_points->runtime.failed = true; // unless it comes to its end
+	m_points->runtime.solver->step(control);
+	m_points->runtime.failed = false;
 	if (m_bodies > 0) m_links.write(*scene, m_points->points);
 	if (control.trackEnergy) reportEnergies();
 	if (TimingInfo::enabled) clock.lap("points to bodies");
@@ -94,19 +100,36 @@ void MpmEngine::reportEnergies() const
 
 Real MpmEngine::criticalTimeStep()
 {
-	scene                          = Omega::instance().getScene().get(); // the loop sets it before a step, and there may have been none
-	const auto             lock    = attach();
-	const mpm::StepControl control = prepare();
+	scene                           = Omega::instance().getScene().get(); // the loop sets it before a step, and there may have been none
+	const Attached         attached = attach();
+	const mpm::StepControl control  = prepare();
 	readBodies();
-	return m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	checkValues();
+	return m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
 }
 
-/* Finds the scene's points and keeps Python's thread off them. */
-std::unique_lock<std::mutex> MpmEngine::attach()
+std::size_t MpmEngine::gridBytes() const
 {
-	m_points = MpmPoints::of(*scene);
-	if (!m_points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
-	return std::unique_lock<std::mutex>(m_points->mutex);
+	const shared_ptr<MpmPoints> points = MpmPoints::of(*Omega::instance().getScene());
+	return points && points->runtime.solver ? points->runtime.solver->gridBytes() : 0;
+}
+
+/* Finds the scene's points and keeps Python's thread off them. They are the scene's: the engine keeps them for no longer than a step. */
+MpmEngine::Attached MpmEngine::attach()
+{
+	shared_ptr<MpmPoints> points = MpmPoints::of(*scene);
+	if (!points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
+	m_points = points.get();
+	return { points, std::unique_lock<std::mutex>(points->mutex) };
+}
+
+void MpmEngine::postLoad(MpmEngine&)
+{
+	std::string fault = mpm::faultOf(continuity.memory);
+	if (!fault.empty()) fault = "continuity." + fault;
+	if (fault.empty() && !(untilLook >= 0 && untilLook <= lookInterval && lookInterval <= longestLookInterval))
+		fault = "untilLook = " + std::to_string(untilLook) + " with lookInterval = " + std::to_string(lookInterval) + " cannot be";
+	if (!fault.empty()) throw std::runtime_error("MpmEngine." + fault + ": the saved scene is damaged; load another copy of it");
 }
 
 // ---- what the scene says ------------------------------------------------------------------------------------------------
@@ -135,11 +158,18 @@ mpm::StepControl MpmEngine::prepare()
 	require(!fullMass || scheme == "MUSL", self, "fullMass", fullMass, "only MUSL has a step for the full mass; set scheme = 'MUSL' or fullMass = False");
 	require(filterTime >= 0, self, "filterTime", filterTime, "give a time > 0 [s], e.g. some periods of the slowest vibration, or 0 for no filter");
 
+	constexpr int fewest = 64;
+	const int     most   = std::max(fewest, 4 * omp_get_num_procs());
+	require(ompThreads <= most, self, "ompThreads", ompThreads,
+		"give at most " + std::to_string(most) + " threads, one a core of the processor is best; -1 takes the number of -j");
+	require(scene->subdomain == 0, "O", "subdomain", scene->subdomain,
+		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
+
 	m_order.check(scene->engines, *this);
-	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretches(analysisKind)) m_points->finish();
-	m_points->large = largeStrain;
+	checkKinematics(analysisKind);
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
+	if (m_points->updateMasses()) forgetStep();
 	prepareWalls(dim, analysisKind == mpm::Analysis::axisymmetric);
 	prepareSolver();
 
@@ -155,9 +185,26 @@ mpm::StepControl MpmEngine::prepare()
 	return control;
 }
 
+/* Strain of points that have been deformed means something else after these switches: volumes would jump. */
+void MpmEngine::checkKinematics(mpm::Analysis kind)
+{
+	mpm::Points& points = m_points->points;
+	const bool   other = m_points->large != largeStrain, ends = !points.thicknessStretch.empty() && !stretches(kind);
+	if (!other && points.thicknessStretch.empty() != stretches(kind)) return;
+	m_points->finish();
+	const auto differs = [](const mpm::Column& column, double from) { return std::any_of(column.begin(), column.end(), [=](double x) { return x != from; }); };
+	bool       deformed = false;
+	for (std::size_t k = 0, n = points.deformation.size(), row = n == 9 ? 4 : 3; other && k < n; ++k)
+		deformed = deformed || differs(points.deformation[k], k % row == 0 ? 1 : 0);
+	require(!deformed, self, "largeStrain", largeStrain, "the points have been deformed with the other setting; choose it before the first step");
+	require(!ends || !differs(points.thicknessStretch, 1), self, "thinning", thinning,
+		"the thickness of the points has changed already, and would jump back; choose it before the first step");
+	m_points->large = largeStrain;
+}
+
 void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 {
-	std::vector<mpm::Wall>& kernelWalls = m_points->runtime.walls;
+	std::vector<mpm::Wall> kernelWalls = m_points->runtime.walls; // replaced only when all walls have been accepted
 	kernelWalls.resize(walls.size());
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		if (!walls[w]) refuse(self, "walls[" + std::to_string(w) + "]", "None", "give an MpmWall");
@@ -171,19 +218,20 @@ void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
-	if (!axisymmetric) return;
-	bool inner = false;
+	bool inner = !axisymmetric;
 	for (const mpm::Wall& wall : kernelWalls) {
-		if (wall.axis != 0) continue;
+		if (!axisymmetric || wall.axis != 0) continue;
 		inner = inner || wall.side > 0;
 		require(wall.position > 0 || (wall.position == 0 && wall.side > 0 && wall.kind == mpm::Wall::Kind::slip), self, "walls",
 			"a wall normal to x at x = " + mpm::number(wall.position),
 			"in axisymmetry x is the radius and the axis is a plane of symmetry without a wall; place radial walls at x > 0");
 	}
-	if (inner) return;
-	mpm::Wall axis;
-	axis.kind = mpm::Wall::Kind::slip;
-	kernelWalls.push_back(axis);
+	if (!inner) {
+		mpm::Wall axis;
+		axis.kind = mpm::Wall::Kind::slip;
+		kernelWalls.push_back(axis);
+	}
+	m_points->runtime.walls = std::move(kernelWalls);
 }
 
 void MpmEngine::prepareSolver()
@@ -193,20 +241,21 @@ void MpmEngine::prepareSolver()
 	const auto          key          = std::make_tuple(analysis, shape, cellSize);
 	const std::size_t   columns      = std::size_t(mpm::stressComponents(analysisKind));
 	auto&               runtime      = m_points->runtime;
-	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
+	if (!runtime.solver || m_solver != runtime.solverNumber || key != m_solverFor) {
+		static std::atomic<long> solvers { 0 };
 		m_points->finish();
-		if (m_solver) acousticFor.clear(), continuity.forget(); // else it comes from a file, with what it knows of the points
 		require(points.stress.empty() || points.stress.size() == columns, self, "analysis", "'" + analysis + "'",
 			"the points already carry the stress of another analysis; make new points");
-		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
-		m_solver       = runtime.solver.get();
-		m_solverFor    = key;
-		m_checkedCount = 0;
+		runtime.solver       = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
+		runtime.solverNumber = m_solver = ++solvers;
+		m_solverFor                     = key;
+		m_checkedCount                  = 0;
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
-		if (m_points->filled) continuity.forget(), acousticFor.clear(); // ids of erased bodies are given again
+		if (m_points->filled) continuity.forget(), forgetStep(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
+		m_valuesDue      = true;
 		m_points->filled = false;
 	}
 	if (shape == "gimp") checkGimp();
@@ -231,6 +280,7 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		const std::string name = "material point " + std::to_string(points.id[p]);
 		require(points.mass[p] > 0 && std::isfinite(points.mass[p]), name, "mass", points.mass[p], "give its material a density > 0 before mpm.fill()");
+		require(points.size[p] > 0 && std::isfinite(points.size[p]), name, "size", points.size[p], "give mpm.fill() a spacing > 0");
 		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p],
 			"give mpm.fill() a spacing > 0 and a thickness > 0");
 		if (kind == mpm::Analysis::axisymmetric) {
@@ -259,10 +309,31 @@ void MpmEngine::checkGimp() const
 			"GIMP needs cells at least as large as the points' spacing; between these walls they are " + mpm::number(least) + " m");
 }
 
-/* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
+/* Numbers that come from a file and are not finite; bodies have been read already, so that a script may have put them right. */
+void MpmEngine::checkValues()
+{
+	if (!m_valuesDue) return;
+	const std::string fault = mpm::nonFiniteValue(m_points->points);
+	if (!fault.empty()) throw std::runtime_error("MpmEngine: " + fault + ": the saved scene is damaged, or its last step has failed; load an earlier one");
+	m_valuesDue = false;
+}
+
+/* The stable step is another one than that which has been found. */
+void MpmEngine::forgetStep()
+{
+	acousticFor.clear();
+	checkedStep = 0;
+}
+
+/* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()) };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)), cellSize };
+	const auto&       kernelWalls = m_points->runtime.walls;
+	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
+		now.push_back(std::round(20 * std::log(cell / cellSize))); // walls stretch cells; in steps of 5 %
+	for (const mpm::Wall& wall : kernelWalls)
+		now.insert(now.end(), { Real(wall.kind), Real(wall.axis), Real(wall.side) });
 	for (const mpm::Law& law : m_points->runtime.laws)
 		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
 	if (now == acousticFor) return false;
@@ -273,24 +344,26 @@ bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 {
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
-	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
-	m_checkedStep    = 0;
-	const Real limit = m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	const bool changed = stiffnessChanged(control);
+	if (changed) acousticLimit = NaN; // for adaptStep(), which may be switched on later
+	if (!changed && control.dt <= checkedStep) return;
+	checkedStep      = 0;
+	const Real limit = m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
 			"the largest stable step of this scene is " + mpm::number(limit) + " s; "
 				+ (stepper ? "O.engines has a TimeStepper, which knows of contacts only; set MpmEngine.timeStepSafety = .4 to have the lesser "
 					     "of both"
 					   : "set O.dt = .4*mpm.criticalTimeStep()"));
-	m_checkedStep = control.dt;
+	checkedStep = control.dt;
 }
 
 /* O.dt for this step. The eigenvalue is worth many steps and changes slowly; velocities are followed at every step. */
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme, control.fullMass);
-	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
+	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0)) acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
+	const Real step = timeStepSafety / (1 / acousticLimit + m_points->runtime.solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
 
@@ -315,8 +388,10 @@ void MpmEngine::checkContinuity(const mpm::StepControl& control)
 		--untilLook;
 		return;
 	}
+	m_points->finish(); // a scene that is loaded here has no stress update pending, and must see the same gaps
 	continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
-	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)));
+	const Real crossing = m_points->runtime.solver->crossingRate() * control.dt;
+	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / crossing, 10., Real(longestLookInterval))));
 }
 
 /* Takes from the points' bodies what scripts and other engines have done since the last step. */
@@ -328,7 +403,16 @@ void MpmEngine::readBodies()
 		m_points->finish();
 		m_points->changeMaterial(p, m_links.body(m_points->points.id[p]).material);
 		continuity.forget(); // points of some laws are left out of its check
+		forgetStep();
 		prepareSolver();
+	}
+	for (const std::size_t p : changes.otherMass) {
+		const int  id   = m_points->points.id[p];
+		const Real mass = m_links.body(id).state->mass;
+		require(mass > 0 && std::isfinite(mass), "O.bodies[" + std::to_string(id) + "].state", "mass", mass, "give a material point a mass > 0 [kg]");
+		m_points->finish();
+		m_points->setMass(p, mass);
+		forgetStep();
 	}
 	if (changes.moved.empty() && !changes.erased) return;
 
@@ -339,8 +423,8 @@ void MpmEngine::readBodies()
 			points.position[std::size_t(d)][p] = m_links.body(points.id[p]).state->pos[d];
 	if (changes.erased) m_points->dropErased(*scene->bodies);
 	if (!changes.moved.empty()) continuity.forget();
-	m_solver->pointsChanged();
-	checkPoints(m_solver->analysis());
+	m_points->runtime.solver->pointsChanged();
+	checkPoints(m_points->runtime.solver->analysis());
 }
 
 } // namespace yade

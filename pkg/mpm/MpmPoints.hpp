@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "kernel/Version.hpp"
+#include "SavedBy.hpp"
 #include "kernel/solver/Solver.hpp"
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -47,6 +47,8 @@ public:
 		std::vector<mpm::Law>        laws; // in the order of materials
 		std::vector<mpm::Wall>       walls;
 		std::unique_ptr<mpm::Solver> solver;
+		long                         solverNumber = 0;     // unlike its address, no other solver has had it
+		bool                         failed       = false; // the last step has
 	};
 
 	/* Those of the scene, or an empty pointer. */
@@ -54,10 +56,15 @@ public:
 
 	std::size_t count() const { return points.count(); }
 	std::string text() const { return "<MpmPoints: " + std::to_string(count()) + " material points; look at them with mpm.array()>"; }
-	/* Carries out the pending stress update. */
+	/* Carries out the pending stress update. Throws StepFailure where it fails; not again after a step that has failed, so that the points
+	can be read and saved as that step has left them. */
 	void finish();
 	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
 	void updateLaws();
+	/* Points of a material whose density has changed get the mass of the new one. Returns whether there were any. */
+	bool updateMasses();
+	/* Changes a point's mass, and that of its body where the two agree; the kinetic energy that it brings is external work. */
+	void setMass(std::size_t p, Real mass);
 	/* Gives a point another material; throws where its internal variables would not fit. */
 	void changeMaterial(std::size_t p, const shared_ptr<Material>& material);
 	/* The body that stands for a point, or null where it has none (any more). */
@@ -104,8 +111,10 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",
+		((SavedBy, savedBy, , Attr::hidden, "Version that has saved the scene"))
 		((mpm::Points, points, , Attr::hidden, "Structure of arrays"))
 		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
+		((std::vector<Real>, densities, , Attr::hidden, "Of each material, when its points were last given their masses [kg/m3]"))
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
@@ -124,8 +133,7 @@ private:
 	static constexpr std::size_t nowhere = std::size_t(-1);
 	struct Directory { // of the points as they stand, made when asked for
 		std::size_t              generation = 0;
-		std::vector<std::size_t> bodies, loose; // index of the point with id k, and of that with id -1 - k, or nowhere
-		std::vector<std::size_t> order;
+		std::vector<std::size_t> order; // indices of the points, bodies by id, then the others
 	};
 	Directory m_directory;
 

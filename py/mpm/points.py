@@ -100,8 +100,8 @@ def criticalTimeStep():
 
 
 def _engine():
-	for engine in O.engines:
-		if isinstance(engine, wrapper.MpmEngine): return engine
+	engines = [engine for engine in O.engines if isinstance(engine, wrapper.MpmEngine)]
+	if engines: return next((engine for engine in engines if not engine.dead), engines[0])
 	raise RuntimeError('mpm: O.engines has no MpmEngine; add MpmEngine(cellSize=...) to it first')
 
 

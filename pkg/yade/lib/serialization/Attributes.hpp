@@ -29,6 +29,11 @@ template <class T> struct IsVector : std::false_type {
 template <class T> struct IsVector<std::vector<T>> : std::true_type {
 };
 
+template <class T> struct IsPointers : std::false_type {
+};
+template <class T> struct IsPointers<std::vector<boost::shared_ptr<T>>> : std::true_type {
+};
+
 /* Sequences of the plugin's own objects. YADE registers conversions for vectors of its own classes, numbers and strings,
 nobody does for vectors of shared_ptr<ClassOfThePlugin>. */
 template <class Vector> struct VectorConverter {
@@ -45,12 +50,29 @@ template <class T> struct VectorConverter<std::vector<boost::shared_ptr<T>>> {
 	static void* convertible(PyObject* object) { return PyList_Check(object) || PyTuple_Check(object) ? object : nullptr; }
 	static void  construct(PyObject* object, boost::python::converter::rvalue_from_python_stage1_data* data)
 	{
-		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
-		Vector                      items;
-		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)
-			items.push_back(boost::python::extract<boost::shared_ptr<T>>(sequence[i])());
-		void* const storage = reinterpret_cast<boost::python::converter::rvalue_from_python_storage<Vector>*>(data)->storage.bytes;
-		data->convertible   = new (storage) Vector(std::move(items));
+		const Vector items = read(boost::python::object(boost::python::handle<>(boost::python::borrowed(object))), "list");
+		void* const  storage
+			= reinterpret_cast<boost::python::converter::rvalue_from_python_storage<Vector>*>(data)->storage.bytes;
+		data->convertible = new (storage) Vector(items);
+	}
+	/* The objects of a list or tuple; name, of the attribute that they are meant for, is used in the complaint of one of another class. */
+	static Vector read(const boost::python::object& sequence, const std::string& name)
+	{
+		Vector items;
+		if (!convertible(sequence.ptr())) {
+			PyErr_Format(PyExc_TypeError, "%s = %R: give a list of objects of class %s", name.c_str(), sequence.ptr(), T().getClassName().c_str());
+			boost::python::throw_error_already_set();
+		}
+		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++) {
+			const boost::python::object                       item = sequence[i];
+			const boost::python::extract<boost::shared_ptr<T>> itself(item);
+			if (!itself.check()) {
+				PyErr_Format(PyExc_TypeError, "%s[%zd] = %R: give objects of class %s", name.c_str(), i, item.ptr(), T().getClassName().c_str());
+				boost::python::throw_error_already_set();
+			}
+			items.push_back(itself());
+		}
+		return items;
 	}
 	static void registerOnce()
 	{
@@ -63,7 +85,11 @@ template <class T> struct VectorConverter<std::vector<boost::shared_ptr<T>>> {
 template <class T> void registerConverter(const T*) { }
 template <class T> void registerConverter(const std::vector<boost::shared_ptr<T>>*) { VectorConverter<std::vector<boost::shared_ptr<T>>>::registerOnce(); }
 
-template <class T> void setAttribute(T& attribute, const boost::python::object& value) { attribute = boost::python::extract<T>(value)(); }
+template <class T> void setAttribute(T& attribute, const boost::python::object& value, const std::string&) { attribute = boost::python::extract<T>(value)(); }
+template <class T> void setAttribute(std::vector<boost::shared_ptr<T>>& attribute, const boost::python::object& value, const std::string& name)
+{
+	attribute = VectorConverter<std::vector<boost::shared_ptr<T>>>::read(value, name);
+}
 
 /* As in YADE, a matrix or vector is handed out by reference (x.gravity[2] = -9.81 works) unless it is read-only; everything
 else by value. */
@@ -83,13 +109,18 @@ void exposeAttribute(Class& pythonClass, const char* name, T Self::*member, cons
 		if constexpr (flags & Attr::readonly) {
 			pythonClass.add_property(name, getter, doc.c_str());
 		} else {
-			const auto set = [member](Self& self, const T& value) {
+			using Given    = std::conditional_t<IsPointers<T>::value, py::object, T>;
+			const auto set = [member, attribute = std::string(name)](Self& self, const Given& given) {
+				T value {};
+				if constexpr (IsPointers<T>::value) setAttribute(value, given, self.getClassName() + "." + attribute);
+				else
+					value = given;
 				if constexpr (IsVector<T>::value && (flags & Attr::noResize))
 					if (value.size() != (self.*member).size()) throw std::length_error("the number of items of this attribute is fixed");
 				self.*member = value;
 				if constexpr (flags & Attr::triggerPostLoad) self.callPostLoad();
 			};
-			const py::object setter = py::make_function(set, py::default_call_policies(), boost::mpl::vector3<void, Self&, const T&>());
+			const py::object setter = py::make_function(set, py::default_call_policies(), boost::mpl::vector3<void, Self&, const Given&>());
 			pythonClass.add_property(name, getter, setter, doc.c_str());
 		}
 	}

@@ -79,7 +79,7 @@ YADE_LAYOUT_SIZE(Serializable, 24)
 #define YADE_ATTR_SET(data, attr)                                                                                                                              \
 	if constexpr (!(YADE_ATTR_FLAGS(attr) & Attr::hidden)) {                                                                                               \
 		if (key == BOOST_PP_STRINGIZE(YADE_ATTR_NAME(attr))) {                                                                                         \
-			::yade::setAttribute(YADE_ATTR_NAME(attr), value);                                                                                     \
+			::yade::setAttribute(YADE_ATTR_NAME(attr), value, this->getClassName() + "." + key);                                                                                     \
 			return;                                                                                                                                \
 		}                                                                                                                                              \
 	}
