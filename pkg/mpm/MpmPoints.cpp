@@ -29,6 +29,16 @@ shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 	return {};
 }
 
+shared_ptr<MpmPoints> MpmPoints::ofScene()
+{
+	Scene&                scene  = *Omega::instance().getScene();
+	shared_ptr<MpmPoints> points = of(scene);
+	if (points) return points;
+	points.reset(new MpmPoints);
+	scene.miscParams.push_back(points);
+	return points;
+}
+
 void MpmPoints::finish()
 {
 	try {
@@ -175,6 +185,7 @@ void MpmPoints::postLoad(MpmPoints&)
 	std::string fault = mpm::faultOf(points, materials.size());
 	for (const auto& material : materials)
 		if (!material && fault.empty()) fault = "materials has an empty entry";
+	if (const std::string neighbours = mpm::faultOf(continuity.memory); fault.empty() && !neighbours.empty()) fault = "continuity." + neighbours;
 	const auto least = std::min_element(points.id.begin(), points.id.end());
 	if (fault.empty() && (nextBodyless >= 0 || (least != points.id.end() && nextBodyless >= *least)))
 		fault = "nextBodyless = " + std::to_string(nextBodyless) + " is no id for a new point";
