@@ -10,9 +10,11 @@ namespace yade {
 
 /* Python lists and tuples for an attribute of type std::vector<boost::shared_ptr<T>>. YADE has conversions for vectors of
 its own classes, none for those of a plugin's. Stands among the definitions of the class with such an attribute:
-.def(Sequences<MpmWall>()). An element that is None becomes an empty pointer; one of another class is a TypeError. */
+.def(Sequences<MpmWall>("MpmEngine.walls")), with the attribute's name for messages. An element that is None becomes an empty
+pointer; one of another class is a TypeError. */
 template <class T> class Sequences : public boost::python::def_visitor<Sequences<T>> {
 	using Vector = std::vector<boost::shared_ptr<T>>;
+	static inline const char* name = "";
 
 	struct ToPython {
 		static PyObject* convert(const Vector& vector)
@@ -29,11 +31,23 @@ template <class T> class Sequences : public boost::python::def_visitor<Sequences
 		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
 		Vector                      items;
 		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)
-			items.push_back(boost::python::extract<boost::shared_ptr<T>>(sequence[i])());
+		{
+			const boost::python::object                        item = sequence[i];
+			const boost::python::extract<boost::shared_ptr<T>> pointer(item);
+			if (!pointer.check()) {
+				PyErr_Format(PyExc_TypeError, "%s[%zd] = %R: give objects of class %s", name, i, item.ptr(), T().getClassName().c_str());
+				boost::python::throw_error_already_set();
+			}
+			items.push_back(pointer());
+		}
 		void* const storage = reinterpret_cast<boost::python::converter::rvalue_from_python_storage<Vector>*>(data)->storage.bytes;
 		data->convertible   = new (storage) Vector(std::move(items));
 	}
 
+public:
+	explicit Sequences(const char* attribute) { name = attribute; }
+
+private:
 	friend class boost::python::def_visitor_access;
 	template <class Class> void visit(Class&) const
 	{

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Continuity.hpp"
+#include "Text.hpp"
 #include "solver/Solver.hpp"
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -34,7 +35,7 @@ namespace {
 	std::string text(const Points& points, std::size_t p)
 	{
 		const Eigen::Vector3d x = positionOf(points, p);
-		return "(" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) + ") m";
+		return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ") m";
 	}
 } // namespace
 
@@ -45,8 +46,8 @@ void Continuity::check(const Points& points, const std::vector<Law>& laws, const
 	const bool wall = gap.q == nowhere;
 	throw StepFailure("material point " + std::to_string(points.id[gap.p]) + " and "
 				  + (wall ? "the fixed wall beside it" : "its neighbour " + std::to_string(points.id[gap.q])) + " have come apart at time "
-				  + std::to_string(time) + " s, position " + text(points, gap.p) + (wall ? "" : " and " + text(points, gap.q)) + ": they are "
-				  + std::to_string(gap.distance) + " m from each other, " + std::to_string(gap.opening / cellSize)
+				  + number(time) + " s, position " + text(points, gap.p) + (wall ? "" : " and " + text(points, gap.q)) + ": they are "
+				  + number(gap.distance) + " m from each other, " + number(gap.opening / cellSize)
 				  + " cells more than the deformation of the material between them accounts for. This is numerical fracture: points so far "
 				    "apart share no "
 				    "node. Use larger cells for the same points, shape='cubic', or less load; where the body is meant to come apart, set "
@@ -98,7 +99,7 @@ Continuity::Slot* Continuity::slotOf(int id)
 bool Continuity::locate(const Points& points)
 {
 	const std::size_t n = memory.ids.size();
-	if (n == 0) return false;
+	if (n == 0 || memory.neighbours.size() != n * std::size_t(dimensionOf(points))) return false; // of points of another dimension
 	if (m_place.size() != n) { // of a memory that has been loaded
 		m_bodies.clear(), m_loose.clear();
 		for (std::size_t slot = 0; slot < n; ++slot) {
@@ -133,15 +134,15 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 	constexpr double reach = 1.5; // spacings: neighbours along the axes of a lattice, and next to one
 	const double     width = 2 * *std::max_element(points.size.begin(), points.size.end()); // of bins: neighbours may be stretched already
 	struct Entry {
-		std::array<int, 3> bin;
-		std::size_t        p;
+		std::array<double, 3> bin; // whole numbers, of any size
+		std::size_t           p;
 	};
 	auto               before = [](const Entry& a, const Entry& b) { return a.bin < b.bin; };
 	std::vector<Entry> entries;
 	for (std::size_t p = 0; p < n; ++p) {
 		if (laws[std::size_t(points.material[p])].hasTensionCutoff()) continue;
 		const Eigen::Vector3d x = positionOf(points, p) / width;
-		entries.push_back({ { int(std::floor(x[0])), int(std::floor(x[1])), int(std::floor(x[2])) }, p });
+		entries.push_back({ { std::floor(x[0]), std::floor(x[1]), std::floor(x[2]) }, p });
 	}
 	std::sort(entries.begin(), entries.end(), before);
 
@@ -155,7 +156,7 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 		const std::size_t p = entry.p;
 		found.clear();
 		for (int row = 0; row < 9; ++row) { // of three bins that follow each other along z
-			const std::array<int, 3> low { entry.bin[0] + row / 3 - 1, entry.bin[1] + row % 3 - 1, entry.bin[2] - 1 };
+			const std::array<double, 3> low { entry.bin[0] + row / 3 - 1, entry.bin[1] + row % 3 - 1, entry.bin[2] - 1 };
 			auto                     e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
 			for (; e != entries.end() && e->bin[0] == low[0] && e->bin[1] == low[1] && e->bin[2] <= low[2] + 2; ++e) {
 				const std::size_t     q  = e->p;
