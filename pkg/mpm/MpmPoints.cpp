@@ -473,7 +473,7 @@ namespace {
 	bool admits(const mpm::Law& law, const Real (&stress)[6])
 	{
 		const Real given = std::sqrt(mpm::Solid::mises2(stress));
-		if (law.kind == mpm::Law::Kind::boucWen) return given <= law.boucWen.yieldStress * (1 + 1e-9); // its update has no yield surface to return to
+		if (mpm::is<mpm::BoucWen>(law)) return given <= mpm::as<mpm::BoucWen>(law).yieldStress * (1 + 1e-9); // its update has no yield surface to return to
 		Real              sigma[6], none[6] {};
 		std::vector<Real> internal(std::size_t(mpm::Internals::of(law).columns(6)), 0.);
 		std::copy(stress, stress + 6, sigma);

@@ -98,7 +98,7 @@ public:
 		,
 		count += 1;
 		,
-		.def(Sequences<ProbeItem>())
+		.def(Sequences<ProbeItem>("ProbeEngine.items"))
 		.def("read", &ProbeEngine::read)
 		.def("write", &ProbeEngine::write)
 		.def("attributesOf", &ProbeEngine::attributesOf)
