@@ -168,6 +168,7 @@ mpm::StepControl MpmEngine::prepare()
 	checkKinematics(analysisKind);
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
+	if (m_order.hasContacts()) m_points->requireContactLaw();
 	if (m_points->updateMasses()) forgetStep();
 	prepareWalls(dim, analysisKind == mpm::Analysis::axisymmetric);
 	prepareSolver();

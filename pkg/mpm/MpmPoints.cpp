@@ -64,6 +64,14 @@ void MpmPoints::updateLaws()
 		}
 }
 
+void MpmPoints::requireContactLaw() const
+{
+	for (std::size_t m = 0; m < materials.size(); ++m)
+		if (!dynamic_cast<const FrictMat*>(materials[m].get()) && inUse(m))
+			throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label
+				+ "': O.engines has an InteractionLoop, and YADE aborts at a contact of this material; give the points a FrictMat, which is as elastic");
+}
+
 bool MpmPoints::updateMasses()
 {
 	bool changed = false;

@@ -77,6 +77,8 @@ public:
 	void finish();
 	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
 	void updateLaws();
+	/* Throws if points with bodies have a material that YADE's contact laws would abort on. */
+	void requireContactLaw() const;
 	/* Points of a material whose density has changed get the mass of the new one. Returns whether there were any. */
 	bool updateMasses();
 	/* Changes a point's mass, and that of its body where the two agree; the kinetic energy that it brings is external work. */

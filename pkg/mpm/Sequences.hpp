@@ -25,9 +25,13 @@ template <class T> class Sequences : public boost::python::def_visitor<Sequences
 			return boost::python::incref(list.ptr());
 		}
 	};
-	static void* convertible(PyObject* object) { return PyList_Check(object) || PyTuple_Check(object) ? object : nullptr; }
+	static void* convertible(PyObject* object) { return object; } // construct() has the better message
 	static void  construct(PyObject* object, boost::python::converter::rvalue_from_python_stage1_data* data)
 	{
+		if (!PyList_Check(object) && !PyTuple_Check(object)) {
+			PyErr_Format(PyExc_TypeError, "%s = %R: give a list of objects of class %s", name, object, T().getClassName().c_str());
+			boost::python::throw_error_already_set();
+		}
 		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
 		Vector                      items;
 		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)

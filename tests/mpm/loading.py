@@ -61,7 +61,7 @@ def column(tag, start=begin, end=None):
 	m = re.compile('<%s(?: [^>]*)?>' % tag).search(good, start)
 	if not m: return None
 	close = good.index('</%s>' % tag, m.end())
-	n = re.compile(r'<count>(\d+)</count>\s*<item_version>0</item_version>((?:\s*<item>[^<]*</item>)*)').search(good, m.end(), close)
+	n = re.compile(r'<count>(\d+)</count>\s*<item_version>0</item_version>((?:\s*<item>[^<]*</item>)+)').search(good, m.end(), close)
 	return (n.start(), n.end(), re.findall('<item>([^<]*)</item>', n.group(2))) if n else None
 
 

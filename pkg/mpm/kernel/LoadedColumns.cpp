@@ -59,7 +59,7 @@ std::string faultOf(const Points& points, std::size_t materials)
 		optional("fixed", points.fixed.size(), n), optional("touched", points.touched.size(), n),
 		number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }), lengths("moving", points.moving, n));
 	if (!fault.empty()) return fault;
-	if (points.internal.size() > std::size_t(Internals::most(6))) return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
+	if (points.internal.size() > std::size_t(maxInternals(6))) return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
 
 	for (std::size_t p = 0; p < n; ++p)
 		if (points.material[p] < 0 || std::size_t(points.material[p]) >= materials)
