@@ -103,7 +103,8 @@ void BodyLinks::refuseBody(Scene& scene, const Body& body) const
 {
 	const std::string name = "O.bodies[" + std::to_string(body.id) + "]";
 	require(body.clumpId == Body::ID_NONE, name, "clumpId", body.clumpId,
-		"a material point cannot be a member of a clump, which moves as a rigid body; release it (O.bodies.releaseFromClump), and make rigid parts of grains");
+		"a material point cannot be a member of a clump, which moves as a rigid body; release it (O.bodies.releaseFromClump), and make rigid parts of "
+		"grains");
 	require(body.subdomain == MpmState::subdomainOfPoints, name, "subdomain", body.subdomain,
 		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
 	require(body.state->densityScaling == unscaled, name + ".state", "densityScaling", body.state->densityScaling,
@@ -131,12 +132,13 @@ void BodyLinks::refuseStates(Scene& scene, const mpm::Points& points, int dim) c
 		if (id < 0) continue;
 		const State* state = std::size_t(id) < m_links.size() ? m_links[std::size_t(id)].state : nullptr;
 		if (!state) continue;
-		const std::string body  = "O.bodies[" + std::to_string(id) + "].state";
-		const Vector3r&   force = scene.forces.getForce(id);
-		const auto* material = dynamic_cast<const ElastMat*>(m_links[std::size_t(id)].body->material.get());
-		const bool  halved   = material && material->poisson == 0 && !m_links[std::size_t(id)].body->intrs.empty();
+		const std::string body     = "O.bodies[" + std::to_string(id) + "].state";
+		const Vector3r&   force    = scene.forces.getForce(id);
+		const auto*       material = dynamic_cast<const ElastMat*>(m_links[std::size_t(id)].body->material.get());
+		const bool        halved   = material && material->poisson == 0 && !m_links[std::size_t(id)].body->intrs.empty();
 		require(force.allFinite(), "O.forces", "f(" + std::to_string(id) + ")", force.transpose(),
-			halved ? "in a contact of two materials with poisson = 0 YADE divides zero by zero for the tangential stiffness; give one of them a small "
+			halved ? "in a contact of two materials with poisson = 0 YADE divides zero by zero for the tangential stiffness; give one of them a "
+				 "small "
 				 "poisson, e.g. 1e-3"
 			       : "look at the engine, contact or script that applies it");
 		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");

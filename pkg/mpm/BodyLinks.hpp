@@ -33,7 +33,7 @@ private:
 		bool holds(const shared_ptr<Body>& b) const
 		{
 			return b && b.get() == body && !bodyCount.owner_before(b) && !b.owner_before(bodyCount) && body->state.get() == state
-				&& !stateCount.owner_before(body->state) && !body->state.owner_before(stateCount);
+			       && !stateCount.owner_before(body->state) && !body->state.owner_before(stateCount);
 		}
 	};
 	std::vector<Link> m_links; // by id

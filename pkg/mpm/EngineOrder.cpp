@@ -80,8 +80,8 @@ bool EngineOrder::checkClocks(bool setsStep) const
 					 + ") and NewtonIntegrator (place " + std::to_string(newton) + "), which must take the same step; put it before both");
 	if (setsStep && (stepper > here || between(stepper, loop, here)))
 		throw std::runtime_error("O.engines: contacts (InteractionLoop) would see the O.dt of " + name + ", which MpmEngine (place "
-					 + std::to_string(here) + ", timeStepSafety) shortens only later; put them in the order InteractionLoop, "
-					 + stepperName + ", MpmEngine, NewtonIntegrator");
+					 + std::to_string(here) + ", timeStepSafety) shortens only later; put them in the order InteractionLoop, " + stepperName
+					 + ", MpmEngine, NewtonIntegrator");
 	return true;
 }
 

@@ -192,8 +192,10 @@ void MpmEngine::checkKinematics(mpm::Analysis kind)
 	const bool   other = m_points->large != largeStrain, ends = !points.thicknessStretch.empty() && !stretches(kind);
 	if (!other && points.thicknessStretch.empty() != stretches(kind)) return;
 	m_points->finish();
-	const auto differs = [](const mpm::Column& column, double from) { return std::any_of(column.begin(), column.end(), [=](double x) { return x != from; }); };
-	bool       deformed = false;
+	const auto differs = [](const mpm::Column& column, double from) {
+		return std::any_of(column.begin(), column.end(), [=](double x) { return x != from; });
+	};
+	bool deformed = false;
 	for (std::size_t k = 0, n = points.deformation.size(), row = n == 9 ? 4 : 3; other && k < n; ++k)
 		deformed = deformed || differs(points.deformation[k], k % row == 0 ? 1 : 0);
 	require(!deformed, self, "largeStrain", largeStrain, "the points have been deformed with the other setting; choose it before the first step");
@@ -331,7 +333,8 @@ void MpmEngine::forgetStep()
 /* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)), cellSize };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
+		cellSize };
 	const auto&       kernelWalls = m_points->runtime.walls;
 	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
 		now.push_back(std::round(20 * std::log(cell / cellSize))); // walls stretch cells; in steps of 5 %
@@ -365,7 +368,8 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0)) acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
+	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0))
+		acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_points->runtime.solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }

@@ -74,24 +74,24 @@ private:
 
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
-	mpm::StepControl             prepare();
-	void                         prepareWalls(int dim, bool axisymmetric);
-	void                         prepareSolver();
-	Attached                     attach();
-	void                         checkKinematics(mpm::Analysis kind);
-	void                         checkValues();
-	void                         forgetStep();
-	bool                         stretches(mpm::Analysis kind) const;
-	void                         checkPoints(mpm::Analysis kind) const;
-	void                         checkGimp() const;
-	void                         planFilter(mpm::StepControl& control);
-	bool                         stiffnessChanged(const mpm::StepControl& control);
-	void                         checkStep(const mpm::StepControl& control, bool stepper);
-	void                         adaptStep(mpm::StepControl& control, bool stepper);
-	void                         checkContinuity(const mpm::StepControl& control);
-	void                         readBodies();
-	BodyLinks&                   links();
-	void                         reportEnergies() const;
+	mpm::StepControl prepare();
+	void             prepareWalls(int dim, bool axisymmetric);
+	void             prepareSolver();
+	Attached         attach();
+	void             checkKinematics(mpm::Analysis kind);
+	void             checkValues();
+	void             forgetStep();
+	bool             stretches(mpm::Analysis kind) const;
+	void             checkPoints(mpm::Analysis kind) const;
+	void             checkGimp() const;
+	void             planFilter(mpm::StepControl& control);
+	bool             stiffnessChanged(const mpm::StepControl& control);
+	void             checkStep(const mpm::StepControl& control, bool stepper);
+	void             adaptStep(mpm::StepControl& control, bool stepper);
+	void             checkContinuity(const mpm::StepControl& control);
+	void             readBodies();
+	BodyLinks&       links();
+	void             reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
 

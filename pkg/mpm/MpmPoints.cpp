@@ -69,7 +69,8 @@ void MpmPoints::requireContactLaw() const
 	for (std::size_t m = 0; m < materials.size(); ++m)
 		if (!dynamic_cast<const FrictMat*>(materials[m].get()) && inUse(m))
 			throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label
-				+ "': O.engines has an InteractionLoop, and YADE aborts at a contact of this material; give the points a FrictMat, which is as elastic");
+						 + "': O.engines has an InteractionLoop, and YADE aborts at a contact of this material; give the points a "
+						   "FrictMat, which is as elastic");
 }
 
 bool MpmPoints::updateMasses()
@@ -481,7 +482,8 @@ namespace {
 	bool admits(const mpm::Law& law, const Real (&stress)[6])
 	{
 		const Real given = std::sqrt(mpm::Solid::mises2(stress));
-		if (mpm::is<mpm::BoucWen>(law)) return given <= mpm::as<mpm::BoucWen>(law).yieldStress * (1 + 1e-9); // its update has no yield surface to return to
+		if (mpm::is<mpm::BoucWen>(law))
+			return given <= mpm::as<mpm::BoucWen>(law).yieldStress * (1 + 1e-9); // its update has no yield surface to return to
 		Real              sigma[6], none[6] {};
 		std::vector<Real> internal(std::size_t(mpm::Internals::of(law).columns(6)), 0.);
 		std::copy(stress, stress + 6, sigma);

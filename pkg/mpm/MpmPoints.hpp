@@ -42,7 +42,6 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity&
 }
 } // namespace boost::serialization
 
-
 namespace yade {
 
 class BodyLinks;

@@ -20,7 +20,7 @@ struct SavedBy {
 		const bool        known    = found.compare(0, std::string(prefix).size(), prefix) == 0;
 		if (known && readable(found.substr(std::string(prefix).size())) == readable(here)) return;
 		throw std::runtime_error("The scene was saved by " + (known ? found : "yade-mpm before 1.0.0") + ", and this is yade-mpm " + here
-			+ ", which cannot read it: load it with that version, or run its script again");
+					 + ", which cannot read it: load it with that version, or run its script again");
 	}
 };
 

@@ -13,7 +13,7 @@ its own classes, none for those of a plugin's. Stands among the definitions of t
 .def(Sequences<MpmWall>("MpmEngine.walls")), with the attribute's name for messages. An element that is None becomes an empty
 pointer; one of another class is a TypeError. */
 template <class T> class Sequences : public boost::python::def_visitor<Sequences<T>> {
-	using Vector = std::vector<boost::shared_ptr<T>>;
+	using Vector                   = std::vector<boost::shared_ptr<T>>;
 	static inline const char* name = "";
 
 	struct ToPython {
@@ -34,8 +34,7 @@ template <class T> class Sequences : public boost::python::def_visitor<Sequences
 		}
 		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
 		Vector                      items;
-		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)
-		{
+		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++) {
 			const boost::python::object                        item = sequence[i];
 			const boost::python::extract<boost::shared_ptr<T>> pointer(item);
 			if (!pointer.check()) {

@@ -4,8 +4,8 @@
 #include "../../tests/kernel/StepLimit.hpp"
 #include "../../tests/kernel/VibratingBar.hpp"
 #include "../../tests/kernel/WeightColumn.hpp"
-#include "kernel/transfer/ShapeFunction.hpp"
 #include "kernel/TileGrid.hpp"
+#include "kernel/transfer/ShapeFunction.hpp"
 #include <cstdio>
 #include <fstream>
 
@@ -176,7 +176,7 @@ std::array<double, 2> staticCantilever(const Choice& k, int cells, bool plastic,
 	s.laws = { Scene::elastic(210e9, .3, 7850) };
 	if (plastic) s.laws = { Scene::boucWen(210e9, .3, 7850, 240e6, 100, 0) };
 	as<BoucWen>(s.laws[0]).reloading = 2;
-	s.walls                     = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+	s.walls                          = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
 	s.addBox(2, { 0, -depth / 2, 0 }, { 1, depth / 2, 0 }, spacing);
 	const Column start = s.points.position[1];
 	Column       weight(s.points.count(), 0);

@@ -129,11 +129,11 @@ template <class S> void randomPaths(int paths, unsigned seed, const std::functio
 	double                                 greatest = 0, worstAudit = 0, worstDifference = 0;
 	for (int path = 0; path < paths; ++path) {
 		const double n = .5 * std::pow(400, unit(random)), alpha = path % 2 ? .3 * unit(random) : 0;
-		Law          law  = boucWenLaw(n, alpha, 1e-4);
+		Law          law       = boucWenLaw(n, alpha, 1e-4);
 		as<BoucWen>(law).gamma = .5 + .5 * (path % 3) * unit(random), as<BoucWen>(law).beta = 1 - as<BoucWen>(law).gamma;
 		if (options) options(as<BoucWen>(law), random);
 		ASSERT_EQ(validate(law), "");
-		Law reference               = law;
+		Law reference                    = law;
 		as<BoucWen>(reference).tolerance = 1e-6;
 		LawPoint<S> coarse(law), fine(reference);
 		double      way = 0, size = 0;
@@ -215,8 +215,8 @@ template <class S> void farStep(double n, double tangentRatio, double poisson, d
 {
 	SCOPED_TRACE(
 		std::to_string(S::N) + " components, n " + std::to_string(n) + ", alpha " + std::to_string(tangentRatio) + ", nu " + std::to_string(poisson));
-	Law law             = boucWenLaw(n, tangentRatio, 1e-4);
-	law.elastic         = { youngModulus, poisson };
+	Law law     = boucWenLaw(n, tangentRatio, 1e-4);
+	law.elastic = { youngModulus, poisson };
 	LawPoint<S>              one(law);
 	std::array<double, S::N> first {}, then {};
 	const double             start[6] = { -1, .6, 2, 1, -2, 1.5 }, way[6] = { 1, -.3, .2, -.4, .3, .7 };
@@ -270,7 +270,7 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 	for (const auto& choose :
 		std::initializer_list<std::function<void(BoucWen&)>> { [](auto& p) { p.strengthDegradation = .1; }, [](auto& p) { p.isotropic.modulus = 1e9; },
 			[](auto& p) { p.reloading = 2; }, [](auto& p) { p.n = 1e12; }, [](auto& p) { p.loadingRule = BoucWen::LoadingRule::paper; } }) {
-		Law law                 = boucWenLaw(10, 0, 1e-4);
+		Law law                      = boucWenLaw(10, 0, 1e-4);
 		as<BoucWen>(law).yieldStress = 1e-9 * youngModulus;
 		choose(as<BoucWen>(law));
 		LawPoint<PlaneStress> point(law);
@@ -278,7 +278,7 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 		EXPECT_FALSE(std::isfinite(point.sigma[0]));
 	}
 	// under a pressure whose rounding is more than the tolerance: no number, or the surface to that rounding
-	Law law                 = boucWenLaw(200, 0, 1e-8);
+	Law law                      = boucWenLaw(200, 0, 1e-8);
 	law.elastic                  = { youngModulus, .4999 };
 	as<BoucWen>(law).yieldStress = 1e-12 * youngModulus;
 	LawPoint<PlaneStrain> point(law);
@@ -294,7 +294,7 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 sub-step can follow. */
 TEST(BoucWenLaw, SignOfThePaperFallsTooFastToFollow)
 {
-	Law law                 = boucWenLaw(25, 0, 1e-4);
+	Law law                      = boucWenLaw(25, 0, 1e-4);
 	as<BoucWen>(law).loadingRule = BoucWen::LoadingRule::paper;
 	LawPoint<Uniaxial> bar(law);
 	LawPoint<Solid>    solid(law);
@@ -328,7 +328,7 @@ struct Cycle {
 };
 template <class S> Cycle shortCycle(double reloading, double z1, double d, double tolerance = 1e-9)
 {
-	Law law               = boucWenLaw(2, 0, tolerance);
+	Law law                    = boucWenLaw(2, 0, tolerance);
 	as<BoucWen>(law).reloading = reloading;
 	LawPoint<S>              point(law);
 	double                   De[S::N];
@@ -382,7 +382,7 @@ TEST(BoucWenLaw, ShortReloadingDriftsUnlessCompatible)
 TEST(BoucWenLaw, CompatibleReloadingKeepsTheVirginCurve)
 {
 	for (const double r : { 1., 3., infinity }) {
-		Law law               = boucWenLaw(2, .05, 1e-8);
+		Law law                    = boucWenLaw(2, .05, 1e-8);
 		as<BoucWen>(law).reloading = r;
 		LawPoint<PlaneStress> plain(boucWenLaw(2, .05, 1e-8)), virgin(law), cycled(law);
 		const double          e = yieldStrain;
@@ -407,9 +407,9 @@ TEST(BoucWenLaw, CompatibleReloadingDependsContinuouslyOnThePath)
 {
 	constexpr double e = yieldStrain, small = 1e-5;
 	for (const double r : { 1., 3., infinity }) {
-		Law law               = boucWenLaw(2, .05, 1e-8);
+		Law law                    = boucWenLaw(2, .05, 1e-8);
 		as<BoucWen>(law).reloading = r;
-		auto difference       = [](const auto& pair) {
+		auto difference            = [](const auto& pair) {
                         double greatest = 0;
                         for (std::size_t k = 0; k < std::size(pair[0].sigma); ++k)
                                 greatest = std::max(greatest, std::abs(pair[0].sigma[k] - pair[1].sigma[k]) / yieldStress);
@@ -452,7 +452,7 @@ TEST(BoucWenLaw, FlowLeavesThePressureAlone)
 {
 	// also where a sub-step has passed the yield stress and is put back
 	const double e = yieldStrain, pressure = 90 * e * youngModulus / (1 - 2 * poissonRatio);
-	Law          law      = boucWenLaw(10, .05, 1e-2);
+	Law          law           = boucWenLaw(10, .05, 1e-2);
 	as<BoucWen>(law).reloading = 2;
 	for (double shear = 2; shear < 4; shear *= 1.1)
 		for (const double back : { .01, .03, .1 }) {
@@ -520,8 +520,8 @@ struct ScalarLaw {
 TEST(BoucWenLaw, OptionsFollowTheirScalarEquations)
 {
 	const struct {
-		const char*                             name;
-		std::function<void(BoucWen&)>           set;
+		const char*                   name;
+		std::function<void(BoucWen&)> set;
 	} cases[] = {
 		{ "strength", [](auto& p) { p.strengthDegradation   = .1; } },
 		{ "stiffness", [](auto& p) { p.stiffnessDegradation= .2; } },
@@ -568,7 +568,7 @@ TEST(BoucWenLaw, OptionsFollowTheirScalarEquations)
 TEST(BoucWenLaw, StrengthDegradationLowersThePlateau)
 {
 	// f follows nu^(-1/n), nu = 1 + d_nu e, while nu grows slowly
-	Law law                         = boucWenLaw(10, 0, 1e-6);
+	Law law                              = boucWenLaw(10, 0, 1e-6);
 	as<BoucWen>(law).strengthDegradation = .2;
 	LawPoint<PlaneStrain> point(law);
 	point.strain({ 20 * yieldStrain, -20 * yieldStrain, 0, 0 });
@@ -580,7 +580,7 @@ TEST(BoucWenLaw, StrengthDegradationLowersThePlateau)
 TEST(BoucWenLaw, IsotropicHardeningSaturatesAtItsRadius)
 {
 	for (const double n : { 2., 25. }) {
-		Law law               = boucWenLaw(n, .05, 1e-6);
+		Law law                    = boucWenLaw(n, .05, 1e-6);
 		as<BoucWen>(law).isotropic = { .01 * youngModulus, .4 * yieldStress, 2 / yieldStrain };
 		LawPoint<Solid> point(law);
 		double          p = 0;
@@ -597,8 +597,8 @@ TEST(BoucWenLaw, IsotropicHardeningSaturatesAtItsRadius)
 TEST(BoucWenLaw, RefusesInadmissibleParameters)
 {
 	struct Case {
-		const char*                             attribute;
-		std::function<void(BoucWen&)>           spoil;
+		const char*                   attribute;
+		std::function<void(BoucWen&)> spoil;
 	};
 	const double nan = std::nan("");
 	for (const Case& c : {

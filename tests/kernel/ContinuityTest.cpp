@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Numerical fracture: found where bodies tear, and nowhere else. Gaps in cells; measured in whole bodies: 0.01 between disks that collide, 0.06 in a
 bar drawn to four times its length, 0.15 in the soft cantilever, 0.27 in Taylor's bar. A tear leaves two cells behind at once. */
-#include "Manufactured.hpp"
 #include "kernel/Continuity.hpp"
+#include "Manufactured.hpp"
 #include <gtest/gtest.h>
 
 using namespace yade::mpm;
@@ -111,8 +111,8 @@ TEST(ContinuityTest, StretchIsNoFracture)
 		for (int points : { 8, 4 }) {
 			SCOPED_TRACE(std::string(name(shape)) + ' ' + std::to_string(points));
 			Watched w;
-			Scene&  s      = w.scene;
-			Law     law    = Scene::elastic(1e6, 0, 1000);
+			Scene&  s               = w.scene;
+			Law     law             = Scene::elastic(1e6, 0, 1000);
 			law.model               = J2();
 			as<J2>(law).yieldStress = 1e4, as<J2>(law).isotropic.modulus = 3e4;
 			w.h                 = 1. / 16;
@@ -162,10 +162,10 @@ TEST(ContinuityTest, BodiesPartAgain)
 TEST(LongContinuityTest, TaylorsBar)
 {
 	Watched      w;
-	Scene&       s   = w.scene;
-	const double R   = 3.2e-3;
-	Law          law = Scene::elastic(117e9, .35, 8930);
-	w.h              = R / 6;
+	Scene&       s          = w.scene;
+	const double R          = 3.2e-3;
+	Law          law        = Scene::elastic(117e9, .35, 8930);
+	w.h                     = R / 6;
 	law.model               = J2();
 	as<J2>(law).yieldStress = 400e6, as<J2>(law).isotropic.modulus = 100e6;
 	s.laws  = { law };

@@ -72,7 +72,7 @@ TEST(DruckerPragerLaw, TensionEndsAtTheApex)
 
 TEST(DruckerPragerLaw, WithoutFrictionItIsJ2)
 {
-	Law perfect     = j2Law(0);
+	Law perfect                 = j2Law(0);
 	perfect.elastic             = { soilModulus, soilPoisson };
 	as<J2>(perfect).yieldStress = 2 * cohesion;
 	LawPoint<PlaneStrain> a(soil(cohesion, 0, 0)), b(perfect);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/* The approximate full mass matrix and the filter of what the grid does not see: the formulas of FullMass.hpp and Filter.hpp against dense matrices, fourth order
-in the manufactured solutions, and the balance of energies. Momentum, patches, threads and walls are in the tests of every method
-(SolverInvariantsTest, PatchTest, WallTest), frequencies in WaveTest, the stable step in StableStepTest. */
+/* The approximate full mass matrix and the filter of what the grid does not see: the formulas of FullMass.hpp and Filter.hpp against dense matrices, fourth
+order in the manufactured solutions, and the balance of energies. Momentum, patches, threads and walls are in the tests of every method (SolverInvariantsTest,
+PatchTest, WallTest), frequencies in WaveTest, the stable step in StableStepTest. */
 #include "VibratingBar.hpp"
 #include "kernel/transfer/ShapeFunction.hpp"
 #include <Eigen/Dense>

@@ -406,7 +406,7 @@ TEST(HardCasesTest, RatchetingByNoise)
                         double sum = 0;
                         for (double d : s.points.dissipation)
                                 sum += d / double(s.points.count());
-			return sum / (.5 * as<BoucWen>(law).yieldStress * as<BoucWen>(law).yieldStress / young);
+                        return sum / (.5 * as<BoucWen>(law).yieldStress * as<BoucWen>(law).yieldStress / young);
 		};
 		s.control.damping = .05;
 		const int ramp    = 4000;

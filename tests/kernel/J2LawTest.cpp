@@ -26,7 +26,7 @@ TEST(J2Law, UniaxialCycleIsBilinear)
 
 TEST(J2Law, IsotropicHardeningReachesItsRadius)
 {
-	Law law          = j2Law(.05);
+	Law law               = j2Law(.05);
 	as<J2>(law).isotropic = { .02 * youngModulus, .5 * yieldStress, .7 / yieldStrain };
 	LawPoint<PlaneStress> plane(law);
 	LawPoint<Solid>       solid(law);

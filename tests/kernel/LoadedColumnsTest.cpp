@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Columns from a file: whatever is changed in them, the checks of LoadedColumns.hpp find it, or the kernel can use the columns without
 leaving them. Run under AddressSanitizer and UndefinedBehaviorSanitizer, an access that the checks have missed ends the program. */
-#include "Scene.hpp"
 #include "kernel/LoadedColumns.hpp"
+#include "Scene.hpp"
 #include <gtest/gtest.h>
 #include <random>
 
@@ -88,7 +88,8 @@ private:
 		}
 		const double      number = numbers[below(12)];
 		const std::size_t at     = below(values.size());
-		if (std::is_floating_point_v<T> && std::abs(number) < 1e38) values[at] = T(number);
+		if (std::is_floating_point_v<T> && std::abs(number) < 1e38)
+			values[at] = T(number);
 		else if (std::is_same_v<T, double>)
 			values[at] = T(number);
 		else if (number >= double(std::numeric_limits<T>::lowest()) && number <= double(std::numeric_limits<T>::max()))
@@ -108,7 +109,7 @@ private:
 /* What a loaded scene does with its columns. */
 void use(Saved& s)
 {
-	Scene& scene = s.scene;
+	Scene& scene     = s.scene;
 	int    internals = 0;
 	for (const Law& law : scene.laws)
 		internals = std::max(internals, Internals::of(law).columns(stressComponents(s.analysis)));
@@ -151,12 +152,13 @@ TEST(LoadedColumnsTest, FaultsAreNamed)
 	EXPECT_EQ(fault([](Saved& d) { d.scene.points.stress[2].push_back(0); }), "stress[2] has 17 entries for 16 points");
 	EXPECT_EQ(fault([](Saved& d) { d.scene.points.stress.resize(5, Column(16)); }), "stress has 5 columns, and can have 0, 1, 3, 4, 6");
 	EXPECT_EQ(fault([](Saved& d) { d.scene.points.deformation.clear(); }), "deformation has 0 columns, and can have 4");
-	EXPECT_EQ(fault([](Saved& d) { d.scene.points.material[3] = 2; }), "material of point " + std::to_string(whole.scene.points.id[3]) + " is 2 of 2 materials");
+	EXPECT_EQ(fault([](Saved& d) { d.scene.points.material[3] = 2; }),
+		"material of point " + std::to_string(whole.scene.points.id[3]) + " is 2 of 2 materials");
 	EXPECT_EQ(fault([](Saved& d) { d.scene.points.id[3] = d.scene.points.id[4]; }), "two points have the id " + std::to_string(whole.scene.points.id[4]));
 	EXPECT_EQ(fault([](Saved& d) { d.memory.neighbours[0] = 16; }), "neighbours has the entry 16, and there are 16");
 	EXPECT_EQ(fault([](Saved& d) { d.memory.depths.push_back(0); }),
 		"depths has " + std::to_string(whole.memory.depths.size() + 1) + " entries for " + std::to_string(whole.memory.footings.size()) + " footings");
-	Saved nan = s();
+	Saved nan                     = s();
 	nan.scene.points.stress[1][2] = NAN;
 	EXPECT_EQ(nonFiniteValue(nan.scene.points), "stress[1] of material point " + std::to_string(nan.scene.points.id[2]) + " is nan");
 }

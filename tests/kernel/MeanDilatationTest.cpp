@@ -20,7 +20,7 @@ constexpr std::array<Analysis, 3> confined { Analysis::planeStrain, Analysis::ax
 
 Law j2(double young, double poisson, double density, double yieldStress, double modulus)
 {
-	Law law                  = Scene::elastic(young, poisson, density);
+	Law law                       = Scene::elastic(young, poisson, density);
 	law.model                     = J2();
 	as<J2>(law).yieldStress       = yieldStress;
 	as<J2>(law).isotropic.modulus = modulus;

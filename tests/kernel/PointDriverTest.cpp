@@ -34,9 +34,9 @@ template <class S> LawPoint<S> follow(const Law& law, const std::vector<double>&
 
 std::vector<Law> someLaws()
 {
-	Law elastic                = j2Law(0);
+	Law elastic                              = j2Law(0);
 	elastic.model                            = Elastic();
-	Law soil                   = elastic;
+	Law soil                                 = elastic;
 	soil.model                               = DruckerPrager();
 	as<DruckerPrager>(soil).cohesion         = .3 * yieldStress;
 	as<DruckerPrager>(soil).internalFriction = .5, as<DruckerPrager>(soil).dilatancy = .2;
@@ -133,13 +133,13 @@ TEST(PointDriver, SaysWhatIsWrong)
 	EXPECT_EQ(complaint(law, bad), "");
 	bad[9] = std::nan("");
 	EXPECT_NE(complaint(law, bad).find("strain xx of entry 1"), std::string::npos);
-	Law soft                 = boucWenLaw(10, 0, 1e-4);
+	Law soft                      = boucWenLaw(10, 0, 1e-4);
 	as<BoucWen>(soft).yieldStress = 240, as<BoucWen>(soft).strengthDegradation = .1;
 	EXPECT_NE(complaint(soft, helix(3)).find("strain of entry 1: "), std::string::npos) << complaint(soft, helix(3));
 	bad = helix(3), bad[10] += 1e-6;
 	EXPECT_NE(complaint(law, bad).find("symmetric"), std::string::npos);
 	EXPECT_NE(complaint(law, { 1, 2, 3 }).find("nine"), std::string::npos);
-	Law wrong       = law;
+	Law wrong            = law;
 	as<BoucWen>(wrong).n = -1;
 	EXPECT_EQ(complaint(wrong, helix(3)).rfind("n = -1", 0), 0u);
 }

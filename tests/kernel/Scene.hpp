@@ -53,7 +53,7 @@ public:
 	}
 	static Law boucWen(double young, double poisson, double density, double yieldStress, double n, double tangentRatio)
 	{
-		Law law                 = elastic(young, poisson, density);
+		Law law                      = elastic(young, poisson, density);
 		law.model                    = BoucWen();
 		as<BoucWen>(law).yieldStress = yieldStress, as<BoucWen>(law).n = n;
 		as<BoucWen>(law).hardening = hardeningModulus(young, tangentRatio);

@@ -100,7 +100,7 @@ bool Continuity::locate(const Points& points)
 {
 	const std::size_t n = memory.ids.size();
 	if (n == 0 || memory.neighbours.size() != n * std::size_t(dimensionOf(points))) return false; // of points of another dimension
-	if (m_place.size() != n) { // of a memory that has been loaded
+	if (m_place.size() != n) {                                                                    // of a memory that has been loaded
 		m_bodies.clear(), m_loose.clear();
 		for (std::size_t slot = 0; slot < n; ++slot) {
 			const int         id    = memory.ids[slot];
@@ -156,8 +156,9 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 		const std::size_t p = entry.p;
 		found.clear();
 		for (int row = 0; row < 9; ++row) { // of three bins that follow each other along z
-			const std::array<double, 3> low { entry.bin[0] + row / 3 - 1, entry.bin[1] + row % 3 - 1, entry.bin[2] - 1 };
-			auto                     e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
+			const int                   across = row / 3 - 1, along = row % 3 - 1;
+			const std::array<double, 3> low { entry.bin[0] + across, entry.bin[1] + along, entry.bin[2] - 1 };
+			auto                        e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
 			for (; e != entries.end() && e->bin[0] == low[0] && e->bin[1] == low[1] && e->bin[2] <= low[2] + 2; ++e) {
 				const std::size_t     q  = e->p;
 				const Eigen::Vector3d dx = positionOf(points, q) - positionOf(points, p);

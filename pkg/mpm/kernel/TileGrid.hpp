@@ -10,9 +10,11 @@ namespace yade::mpm {
 
 using Field = Column; // one number a node
 /* One field a component. */
-template <int dim> struct NodeVector : std::array<Field, dim> {};
+template <int dim> struct NodeVector : std::array<Field, dim> {
+};
 /* The lumped mass for the motion along each axis. */
-template <int dim> struct NodeMass : std::array<Field*, dim> {};
+template <int dim> struct NodeMass : std::array<Field*, dim> {
+};
 
 constexpr int ipow(int base, int exponent) { return exponent == 0 ? 1 : base * ipow(base, exponent - 1); }
 

@@ -14,9 +14,9 @@ class Scene;
 class Body : public Serializable {
 	YADE_DECLARED_CLASS(Body)
 
-	using id_t        = int;
-	using mask_t      = int;
-	using MapId2IntrT = std::map<id_t, shared_ptr<Interaction>>;
+	using id_t                    = int;
+	using mask_t                  = int;
+	using MapId2IntrT             = std::map<id_t, shared_ptr<Interaction>>;
 	static constexpr id_t ID_NONE = -1;
 
 	enum {

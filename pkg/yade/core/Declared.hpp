@@ -41,5 +41,5 @@ protected:                                                                      
 	template <class Archive> void serialize(Archive& archive, const unsigned int)                                                                          \
 	{                                                                                                                                                      \
 		archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(base);                                                                                            \
-		BOOST_PP_SEQ_FOR_EACH_I(YADE_DECLARED_NVP_REST, archive, (~) members)                                                                          \
+		BOOST_PP_SEQ_FOR_EACH_I(YADE_DECLARED_NVP_REST, archive, (~)members)                                                                           \
 	}

@@ -8,7 +8,7 @@ class GlobalEngine : public Engine {
 	YADE_DECLARED_CLASS(GlobalEngine)
 	YADE_DECLARED_SERIALIZE(Engine, )
 
-	GlobalEngine() { }
+	GlobalEngine() {}
 };
 YADE_LAYOUT_SIZE(GlobalEngine, 104)
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <lib/base/Singleton.hpp>
 #include <lib/base/Math.hpp>
+#include <lib/base/Singleton.hpp>
 #include <string>
 
 namespace yade {

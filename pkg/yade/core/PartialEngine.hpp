@@ -8,7 +8,7 @@ class PartialEngine : public Engine {
 	YADE_DECLARED_CLASS(PartialEngine)
 	YADE_DECLARED_SERIALIZE(Engine, (ids))
 
-	PartialEngine() { }
+	PartialEngine() {}
 
 	std::vector<int> ids;
 };

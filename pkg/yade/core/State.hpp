@@ -27,16 +27,16 @@ public:
 	State();
 
 	enum {
-		DOF_NONE    = 0,
-		DOF_X       = 1,
-		DOF_Y       = 2,
-		DOF_Z       = 4,
-		DOF_RX      = 8,
-		DOF_RY      = 16,
-		DOF_RZ      = 32,
-		DOF_ALL     = 63,
-		DOF_XYZ     = 7,
-		DOF_RXRYRZ  = 56,
+		DOF_NONE   = 0,
+		DOF_X      = 1,
+		DOF_Y      = 2,
+		DOF_Z      = 4,
+		DOF_RX     = 8,
+		DOF_RY     = 16,
+		DOF_RZ     = 32,
+		DOF_ALL    = 63,
+		DOF_XYZ    = 7,
+		DOF_RXRYRZ = 56,
 	};
 	static unsigned axisDOF(int axis, bool rotational = false) { return 1u << (axis + (rotational ? 3 : 0)); }
 

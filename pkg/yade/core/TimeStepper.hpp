@@ -8,7 +8,7 @@ class TimeStepper : public GlobalEngine {
 	YADE_DECLARED_CLASS(TimeStepper)
 	YADE_DECLARED_SERIALIZE(GlobalEngine, (active)(timeStepUpdateInterval))
 
-	TimeStepper() { }
+	TimeStepper() {}
 	bool         isActivated() override;
 	void         action() override;
 	virtual void computeTimeStep(Scene* scene);

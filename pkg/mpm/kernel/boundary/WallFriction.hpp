@@ -11,7 +11,8 @@ namespace yade::mpm {
 leaves: the near points of a compressed body do, as it rebounds. An impulse that is negligible beside the node's momentum
 away from the wall is rounding, and no contact. */
 template <int dim>
-void decideContact(WallMirror<dim>& mirror, const Wall& wall, const NodeMass<dim>& masses, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
+void decideContact(
+	WallMirror<dim>& mirror, const Wall& wall, const NodeMass<dim>& masses, const NodeVector<dim>& momentum, const NodeVector<dim>& force, double dt)
 {
 	const int    a    = wall.axis;
 	const Field& mass = *masses[a];

@@ -54,7 +54,8 @@ public:
 	}
 	/* ... and what the walls take of it; unfold(field) writes the images of an acceleration. */
 	template <class Unfold>
-	void add(std::vector<Wall>& walls, const std::vector<WallMirror<dim>>& mirrors, const NodeMass<dim>& mass, const NodeVector<dim>& force, Unfold&& unfold)
+	void add(
+		std::vector<Wall>& walls, const std::vector<WallMirror<dim>>& mirrors, const NodeMass<dim>& mass, const NodeVector<dim>& force, Unfold&& unfold)
 	{
 		for (const Node& r : m_nodes)
 			for (int d = 0; d < dim; ++d)

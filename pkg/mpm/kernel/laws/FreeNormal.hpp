@@ -24,8 +24,8 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* stra
                 for (int k = 0; k < 3; ++k)
                         full[k] = trial;
                 for (int k = 0; k < N; ++k)
-			full[S::voigtIndex[k]] = strain[k], s[S::voigtIndex[k]] = sigma[k];
-		p3 = p, heat = {};
+                        full[S::voigtIndex[k]] = strain[k], s[S::voigtIndex[k]] = sigma[k];
+                p3 = p, heat = {};
                 updatePoints<Solid>(update, full, s, p3, heat);
                 f = s[2];
 	};

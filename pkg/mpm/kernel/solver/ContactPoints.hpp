@@ -18,10 +18,10 @@ template <int dim> constexpr int turnsTo(int k) { return dim == 3 ? (k + 2) % 3 
 /* Torques: f_i += T_p x grad N_ip / 2, which has no resultant, the moment T_p and the power T_p . spin. */
 template <int dim, class Shape> void spreadTorques(const Transfer<dim, Shape>& transfer, std::size_t t, NodeVector<dim>& force)
 {
-	using T                     = Transfer<dim, Shape>;
-	const auto&        tile     = transfer.grid.tiles()[t];
-	const Points&      P        = transfer.points;
-	bool               found    = false;
+	using T                  = Transfer<dim, Shape>;
+	const auto&        tile  = transfer.grid.tiles()[t];
+	const Points&      P     = transfer.points;
+	bool               found = false;
 	typename T::Values f[dim];
 	for (std::size_t p = tile.begin; p < tile.end; ++p) {
 		if (!P.touched[p]) continue;
@@ -44,7 +44,7 @@ template <int dim, class Shape> void spreadTorques(const Transfer<dim, Shape>& t
 contact's force follows the points' motion; any other velocity would lose energy (doc/method.md). */
 template <class D> void moveContactPoints(D& d, double dt, std::size_t t, TileReport& report)
 {
-	constexpr int      dim    = D::dim;
+	constexpr int dim         = D::dim;
 	using Shape               = typename D::Shape;
 	const auto&        tile   = d.transfer.grid.tiles()[t];
 	const auto&        g      = d.transfer.geometry;

@@ -22,7 +22,8 @@ public:
 	/* f = K u; u has its images behind walls, f is not mirrored. */
 	void apply(const NodeVector<dim>& u, NodeVector<dim>& f) const
 	{
-		sumOverTiles(m_transfer, [&](std::size_t t) { run(m_transfer.instructions, [&, t] { applyTile(m_transfer.grid.tiles()[t], u, f); }); }, f);
+		sumOverTiles(
+			m_transfer, [&](std::size_t t) { run(m_transfer.instructions, [&, t] { applyTile(m_transfer.grid.tiles()[t], u, f); }); }, f);
 	}
 
 private:

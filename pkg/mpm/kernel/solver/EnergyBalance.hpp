@@ -47,22 +47,25 @@ public:
 		m_force = d.fields.force;
 		for (NodeVector<dim>* field : { &m_damping, &m_external })
 			field->fill(Field(d.fields.mass.size()));
-		sumOverTiles(transfer, [&](std::size_t t) {
-			const auto& tile = transfer.grid.tiles()[t];
-			Values      f[dim] {};
-			for (std::size_t p = tile.begin; p < tile.end; ++p) {
-				Lanes mp, fp[dim];
-				load(transfer.points.mass, { p, 1 }, mp);
-				externalForces(transfer.points, { p, 1 }, control, mp, fp);
-				transfer.weights(tile, p).forEachNode([&](int i, double Nip, const std::array<double, dim>&) {
-					for (int a = 0; a < dim; ++a)
-						f[a][i] += Nip * fp[a][0];
-				});
-			}
-			for (int a = 0; a < dim; ++a)
-				D::Patch::add(tile, f[a], m_external[a]);
-			if (!transfer.points.touched.empty()) spreadTorques(transfer, t, m_external);
-		}, m_external);
+		sumOverTiles(
+			transfer,
+			[&](std::size_t t) {
+				const auto& tile = transfer.grid.tiles()[t];
+				Values      f[dim] {};
+				for (std::size_t p = tile.begin; p < tile.end; ++p) {
+					Lanes mp, fp[dim];
+					load(transfer.points.mass, { p, 1 }, mp);
+					externalForces(transfer.points, { p, 1 }, control, mp, fp);
+					transfer.weights(tile, p).forEachNode([&](int i, double Nip, const std::array<double, dim>&) {
+						for (int a = 0; a < dim; ++a)
+							f[a][i] += Nip * fp[a][0];
+					});
+				}
+				for (int a = 0; a < dim; ++a)
+					D::Patch::add(tile, f[a], m_external[a]);
+				if (!transfer.points.touched.empty()) spreadTorques(transfer, t, m_external);
+			},
+			m_external);
 	}
 	/* Nodal external forces that keepSums() has found; loads that are not the points' are added. */
 	NodeVector<dim>& external() { return m_external; }
@@ -71,9 +74,9 @@ public:
 	/* After the update: velocities at the start of the step, and their change. */
 	void keepMotion(const D& d)
 	{
-		m_change          = d.fields.velocityIncrement;
-		m_start           = velocityAtStart(d.fields);
-		const Points& P   = d.transfer.points;
+		m_change        = d.fields.velocityIncrement;
+		m_start         = velocityAtStart(d.fields);
+		const Points& P = d.transfer.points;
 		m_velocity.assign(P.velocity.begin(), P.velocity.begin() + dim);
 		m_kineticAtStart = kineticEnergy<dim>(P);
 		d.constraints.afterUpdate(m_damping, Motion::increment);
@@ -86,7 +89,8 @@ public:
 		NodeVector<dim>       dv = m_change, u = m_change;
 		std::vector<Energies> atPoints(d.transfer.grid.tiles().size());
 		if (correctsMass(control)) correctMass(d, dv, scratch, Motion::increment);
-		sumOverTiles(d.transfer, [&](std::size_t t) { sumMeanChange(d, control.flip, dv, t, u, atPoints[t]); }, u);
+		sumOverTiles(
+			d.transfer, [&](std::size_t t) { sumMeanChange(d, control.flip, dv, t, u, atPoints[t]); }, u);
 		velocityFromMomentum(d, u, u, Motion::increment);
 		for (int a = 0; a < dim; ++a)
 			for (std::size_t i = 0; i < u[a].size(); ++i)

@@ -51,7 +51,7 @@ namespace detail {
 		using T = Transfer<S::dim, Shape>;
 		typename T::Values volume {}, sum {};
 		forEachBlock(tile.begin, tile.end, [&](Block block) {
-			Lanes                     x[S::dim];
+			Lanes                      x[S::dim];
 			WeightLanes<S::dim, Shape> w;
 			for (int d = 0; d < S::dim; ++d)
 				load(transfer.points.position[std::size_t(d)], block, x[d]);
@@ -72,12 +72,13 @@ template <class S, class Shape>
 [[gnu::noinline]] void elementPressures(const Transfer<S::dim, Shape>& transfer, const typename Transfer<S::dim, Shape>::Tile& tile, const StepControl& control,
 	typename Transfer<S::dim, Shape>::Values& mean)
 {
-	detail::elementMeans<S, Shape>(transfer, tile, control, mean, [&](const auto&, double, std::size_t p, int) { return detail::pressure<S>(transfer.points, p); });
+	detail::elementMeans<S, Shape>(
+		transfer, tile, control, mean, [&](const auto&, double, std::size_t p, int) { return detail::pressure<S>(transfer.points, p); });
 }
 /* <theta> of the nodal velocities v. */
 template <class S, class Shape>
-[[gnu::noinline]] void elementDilatations(const Transfer<S::dim, Shape>& transfer, const typename Transfer<S::dim, Shape>::Tile& tile, const StepControl& control,
-	const typename Transfer<S::dim, Shape>::Values* v, typename Transfer<S::dim, Shape>::Values& mean)
+[[gnu::noinline]] void elementDilatations(const Transfer<S::dim, Shape>& transfer, const typename Transfer<S::dim, Shape>::Tile& tile,
+	const StepControl& control, const typename Transfer<S::dim, Shape>::Values* v, typename Transfer<S::dim, Shape>::Values& mean)
 {
 	Lanes G[gradients<S>];
 	detail::elementMeans<S, Shape>(transfer, tile, control, mean, [&](const auto& w, double r, std::size_t, int l) {

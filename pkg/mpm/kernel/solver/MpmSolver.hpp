@@ -110,14 +110,14 @@ private:
 	EnergyBalance<D>         m_balance;
 	AddedWallWork            m_added;
 	FaceLoads<D>             m_faces;
-	NodeVector<dim>          m_roundTrip;           // scratch of the mass correction
-	std::optional<GridNodes> m_shown;               // nodes of the last step, once the grid has been laid anew
-	std::vector<Wall::Kind>  m_kinds;               // of the walls, as the constraints have been built for
-	double                   m_wallHalfSize = 0;    // of the point whose shape functions they have been built for
-	bool                     m_laid      = false;   // blocks, fields and constraints are those of the geometry
-	bool                     m_known     = false;   // points are in the tiles of the grid, unless a report marks a tile as left
-	bool                     m_sorted    = false;   // all of them are
-	bool                     m_stressDue = false;
+	NodeVector<dim>          m_roundTrip;            // scratch of the mass correction
+	std::optional<GridNodes> m_shown;                // nodes of the last step, once the grid has been laid anew
+	std::vector<Wall::Kind>  m_kinds;                // of the walls, as the constraints have been built for
+	double                   m_wallHalfSize = 0;     // of the point whose shape functions they have been built for
+	bool                     m_laid         = false; // blocks, fields and constraints are those of the geometry
+	bool                     m_known        = false; // points are in the tiles of the grid, unless a report marks a tile as left
+	bool                     m_sorted       = false; // all of them are
+	bool                     m_stressDue    = false;
 
 	Points&       points() { return m_d.transfer.points; }
 	const Points& points() const { return m_d.transfer.points; }
@@ -129,7 +129,8 @@ private:
 	{
 		sumPoints();        // 12, 13, after the deferred 16
 		updateVelocities(); // 14
-		sumOverTiles(m_d.transfer, [this](std::size_t t) { moveTile<true>(t); }, m_d.fields.momentum); // 15, second mapping
+		sumOverTiles(
+			m_d.transfer, [this](std::size_t t) { moveTile<true>(t); }, m_d.fields.momentum); // 15, second mapping
 		velocityFromMomentum(m_d, m_d.fields.momentum, m_d.fields.velocity, Motion::velocity);
 		if (correctsMass(m_control)) correctVelocities(m_d, m_control, m_roundTrip, m_reports);
 		endMotion();
@@ -139,8 +140,8 @@ private:
 	/* Stress last, with the nodal velocities that eq. 14 ends with. */
 	void usl()
 	{
-		sumPoints();        // 12, 13, after the deferred 16
-		updateVelocities(); // 14
+		sumPoints();                                                             // 12, 13, after the deferred 16
+		updateVelocities();                                                      // 14
 		m_d.transfer.forEachTile([this](std::size_t t) { moveTile<false>(t); }); // 15
 		endMotion();
 		lap("nodes to points");
@@ -149,13 +150,13 @@ private:
 	/* Stress first, with the velocities that the points bring to the nodes. */
 	void usf()
 	{
-		finish(); // of a step of another scheme
+		finish();            // of a step of another scheme
 		sum<Sums::motion>(); // 12
 		startVelocities();
 		deferStress(), finish(); // 16
 		sum<Sums::forces>();     // 13
 		lap("points to nodes, stress");
-		updateVelocities(); // 14
+		updateVelocities();                                                      // 14
 		m_d.transfer.forEachTile([this](std::size_t t) { moveTile<false>(t); }); // 15
 		endMotion();
 		lap("nodes to points");

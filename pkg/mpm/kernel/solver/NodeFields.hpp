@@ -44,14 +44,14 @@ template <class S> struct NodeFields {
 
 /* Points laid over the grid, nodal fields, and the constraints on the nodes: what all rooms of a step work on. */
 template <class S_, class Shape_> struct Discretization {
-	using S                      = S_;
-	using Shape                  = Shape_;
-	static constexpr int dim     = S::dim;
-	using T                      = Transfer<dim, Shape>;
-	using Tile                   = typename T::Tile;
-	using Values                 = typename T::Values;
-	using Weights                = typename T::Weights;
-	using Patch                  = typename T::Patch;
+	using S                  = S_;
+	using Shape              = Shape_;
+	static constexpr int dim = S::dim;
+	using T                  = Transfer<dim, Shape>;
+	using Tile               = typename T::Tile;
+	using Values             = typename T::Values;
+	using Weights            = typename T::Weights;
+	using Patch              = typename T::Patch;
 
 	T                    transfer;
 	NodeConstraints<dim> constraints;

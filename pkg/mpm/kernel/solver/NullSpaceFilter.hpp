@@ -9,10 +9,10 @@ namespace yade::mpm {
 control.filter of them is removed. At a wall they carry momentum, which goes into its reaction. */
 template <class D> void filterVelocities(D& d, const StepControl& control)
 {
-	constexpr int      dim    = D::dim;
-	Points&            P      = d.transfer.points;
-	const double       before = control.trackEnergy ? kineticEnergy<dim>(P) : 0, rate = control.filter / control.dt;
-	NodeVector<dim>    seen, trip;
+	constexpr int   dim    = D::dim;
+	Points&         P      = d.transfer.points;
+	const double    before = control.trackEnergy ? kineticEnergy<dim>(P) : 0, rate = control.filter / control.dt;
+	NodeVector<dim> seen, trip;
 	spreadVelocities(d.transfer, noField<dim>, seen);
 	double work = projectWithReactions(d, seen, Motion::velocity, rate, control.dt);
 	spreadVelocities(d.transfer, &seen, trip);

@@ -23,7 +23,8 @@ public:
 			const std::size_t a = std::size_t(d);
 			const double      x = position(d, p), xi = g.xi(d, x);
 			if (!std::isfinite(x) || !std::isfinite(m_transfer.points.velocity[a][p]))
-				fail(p, "has a non-finite position or velocity", "reduce O.dt (mpm.criticalTimeStep() is the limit), or check the loads on it", time);
+				fail(p, "has a non-finite position or velocity", "reduce O.dt (mpm.criticalTimeStep() is the limit), or check the loads on it",
+					time);
 			if (!(xi >= g.xiMin[a] - tolerance) || !(xi <= g.xiMax[a] + tolerance))
 				fail(p, "has left the walls", "check that walls and points overlap as meant, reduce O.dt, or refine the points", time);
 			if (hoop && d == 0 && !(x > 0))
@@ -40,8 +41,8 @@ public:
 			where += (d ? ", " : "") + number(x);
 			cell += (d ? ", " : "") + (std::isfinite(xi) ? std::to_string((long long)(std::floor(xi))) : "none");
 		}
-		throw StepFailure("material point " + std::to_string(m_transfer.points.id[p]) + " " + what + " at time " + number(time) + " s, position (" + where
-					  + ") m, cell (" + cell + "): " + remedy,
+		throw StepFailure("material point " + std::to_string(m_transfer.points.id[p]) + " " + what + " at time " + number(time) + " s, position ("
+					  + where + ") m, cell (" + cell + "): " + remedy,
 			m_transfer.points.id[p]);
 	}
 

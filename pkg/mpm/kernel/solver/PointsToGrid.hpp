@@ -29,7 +29,8 @@ namespace detail {
 
 	/* f_p + m_p g, in axisymmetry with the hoop stress -V_p sigma_hoop / r_p, and V_p sigma_p. */
 	template <class S>
-	void pointForces(const Points& points, Block block, const StepControl& control, const Lanes& mp, const Lanes& r, Lanes (&fp)[S::dim], Lanes (&Vs)[S::dim][S::dim])
+	void pointForces(const Points& points, Block block, const StepControl& control, const Lanes& mp, const Lanes& r, Lanes (&fp)[S::dim],
+		Lanes (&Vs)[S::dim][S::dim])
 	{
 		Lanes V;
 		currentVolume<S::dim>(points, block, control.largeStrain, V);
@@ -52,7 +53,7 @@ namespace detail {
 	template <class S, class Shape>
 	void addRadialMass(const Transfer<S::dim, Shape>& transfer, const typename Transfer<S::dim, Shape>::Tile& tile, Field& radialMass)
 	{
-		using T                  = Transfer<S::dim, Shape>;
+		using T                   = Transfer<S::dim, Shape>;
 		const Points&      points = transfer.points;
 		typename T::Values mr {};
 		for (std::size_t p = tile.begin; p < tile.end; ++p)
@@ -69,12 +70,12 @@ namespace detail {
 	template <Sums sums, class S, class Shape>
 	void spreadTile(const Transfer<S::dim, Shape>& transfer, NodeFields<S>& fields, const StepControl& control, std::size_t t)
 	{
-		constexpr int  dim    = S::dim, row = Shape::row;
+		constexpr int  dim = S::dim, row = Shape::row;
 		constexpr bool motion = sums != Sums::forces, forces = sums != Sums::motion;
-		using Patch            = mpm::Patch<dim, Shape>;
-		using Values           = typename Patch::Values;
-		const auto&   tile     = transfer.grid.tiles()[t];
-		const Points& points   = transfer.points;
+		using Patch          = mpm::Patch<dim, Shape>;
+		using Values         = typename Patch::Values;
+		const auto&   tile   = transfer.grid.tiles()[t];
+		const Points& points = transfer.points;
 		Values        m {}, mv[dim] {}, f[dim] {}, pressure;
 		const bool    averaged = forces && averagesDilatation<S>(control);
 		if (averaged) elementPressures<S>(transfer, tile, control, pressure);

@@ -40,7 +40,8 @@ template <int dim, class Shape> void spreadVelocities(const Transfer<dim, Shape>
 {
 	for (Field& component : momentum)
 		component.resize(transfer.grid.nodeCount());
-	sumOverTiles(transfer, [&](std::size_t t) { run(transfer.instructions, [&, t] { detail::spreadTileVelocities(transfer, t, v, momentum); }); }, momentum);
+	sumOverTiles(
+		transfer, [&](std::size_t t) { run(transfer.instructions, [&, t] { detail::spreadTileVelocities(transfer, t, v, momentum); }); }, momentum);
 }
 
 /* v <- 2 v - Qv. */

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "../Geometry.hpp"
-#include "../laws/Law.hpp"
 #include "../Points.hpp"
+#include "../laws/Law.hpp"
 #include <memory>
 
 namespace yade::mpm {

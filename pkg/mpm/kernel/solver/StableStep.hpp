@@ -50,8 +50,8 @@ public:
 			Vector     scratch(start.size());
 			const bool corrected = fullMass && scheme == Scheme::musl;
 			lambda               = largestEigenvalue(
-                                start, [&](const Vector& x, Vector& y) { smoothing(x, scratch, corrected), stiffness(scratch, y); },
-                                [&](const Vector& x, const Vector& y) {
+					      start, [&](const Vector& x, Vector& y) { smoothing(x, scratch, corrected), stiffness(scratch, y); },
+					      [&](const Vector& x, const Vector& y) {
                                         smoothing(y, scratch, corrected);
                                         return massProduct(x, scratch);
                                 });

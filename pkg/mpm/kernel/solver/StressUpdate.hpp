@@ -13,10 +13,10 @@ namespace yade::mpm {
 /* Eq. 16:  grad v_p = sum v_i grad N_ip, strain increment and rotation, law, deformation gradient; then the point moves by its
 displacement increment. Points of a block that share a law are updated at once, others one by one. */
 template <class D> struct StressUpdate {
-	using S                    = typename D::S;
-	using Shape                = typename D::Shape;
-	using Values               = typename D::Values;
-	static constexpr int  dim  = S::dim, N = S::N;
+	using S                   = typename D::S;
+	using Shape               = typename D::Shape;
+	using Values              = typename D::Values;
+	static constexpr int  dim = S::dim, N = S::N;
 	static constexpr bool hoop = hasHoop<S>;
 
 	static constexpr const char* noVolume = "has a volume that is not positive";

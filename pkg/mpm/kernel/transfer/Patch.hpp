@@ -12,9 +12,9 @@ template <int dim, class Shape> struct Patch {
 	using Grid                   = TileGrid<dim>;
 	using Tile                   = typename Grid::Tile;
 	static constexpr int support = Shape::support, row = Shape::row;
-	static constexpr int extent  = Grid::width + support - 1;
-	static constexpr int rows    = ipow(extent, dim - 1);
-	static constexpr int nodes   = rows * extent;
+	static constexpr int extent = Grid::width + support - 1;
+	static constexpr int rows   = ipow(extent, dim - 1);
+	static constexpr int nodes  = rows * extent;
 
 	/* One nodal quantity; the excess lets whole vectors be read at the last node. */
 	using Values = double[nodes + row - support];

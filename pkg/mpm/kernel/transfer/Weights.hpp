@@ -27,8 +27,7 @@ template <int dim, class Shape> struct Weights {
 		} else {
 			for (int k = 0; k < support; ++k)
 				for (int j = 0; j < support; ++j)
-					visit((k * extent + j) * extent,
-						std::array<double, 3> { N[1][j] * N[2][k], dN[1][j] * N[2][k], N[1][j] * dN[2][k] });
+					visit((k * extent + j) * extent, std::array<double, 3> { N[1][j] * N[2][k], dN[1][j] * N[2][k], N[1][j] * dN[2][k] });
 		}
 	}
 	/* visit(node of the patch, N_ip, grad N_ip) for every node. */

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <boost/shared_ptr.hpp>
-#include <boost/make_shared.hpp>
-#include <boost/enable_shared_from_this.hpp>
-#include <boost/weak_ptr.hpp>
-#include <boost/serialization/nvp.hpp>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <boost/enable_shared_from_this.hpp>
+#include <boost/make_shared.hpp>
+#include <boost/serialization/nvp.hpp>
+#include <boost/shared_ptr.hpp>
+#include <boost/weak_ptr.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #ifndef EIGEN_DONT_ALIGN
-#error "YADE 2023.02a needs EIGEN_DONT_ALIGN in every translation unit (link the CMake target yade::declarations)"
+#	error "YADE 2023.02a needs EIGEN_DONT_ALIGN in every translation unit (link the CMake target yade::declarations)"
 #endif
 
 namespace yade {
@@ -40,11 +40,11 @@ using std::vector;
 constexpr Real NaN = std::numeric_limits<Real>::quiet_NaN();
 
 struct Mathr {
-	static constexpr Real PI            = 3.14159265358979323846;
-	static constexpr Real TWO_PI        = 2 * PI;
-	static constexpr Real HALF_PI       = PI / 2;
-	static constexpr Real MAX_REAL      = std::numeric_limits<Real>::max();
-	static constexpr Real EPSILON       = std::numeric_limits<Real>::epsilon();
+	static constexpr Real PI       = 3.14159265358979323846;
+	static constexpr Real TWO_PI   = 2 * PI;
+	static constexpr Real HALF_PI  = PI / 2;
+	static constexpr Real MAX_REAL = std::numeric_limits<Real>::max();
+	static constexpr Real EPSILON  = std::numeric_limits<Real>::epsilon();
 };
 
 } // namespace yade
@@ -53,14 +53,8 @@ struct Mathr {
 signatures as the library's, which may replace them at load time: what they write must stay the same. */
 namespace boost {
 namespace serialization {
-	template <class Archive> void serialize(Archive& ar, yade::Vector2r& v, const unsigned int)
-	{
-		ar& make_nvp("x", v[0]) & make_nvp("y", v[1]);
-	}
-	template <class Archive> void serialize(Archive& ar, yade::Vector2i& v, const unsigned int)
-	{
-		ar& make_nvp("x", v[0]) & make_nvp("y", v[1]);
-	}
+	template <class Archive> void serialize(Archive& ar, yade::Vector2r& v, const unsigned int) { ar& make_nvp("x", v[0]) & make_nvp("y", v[1]); }
+	template <class Archive> void serialize(Archive& ar, yade::Vector2i& v, const unsigned int) { ar& make_nvp("x", v[0]) & make_nvp("y", v[1]); }
 	template <class Archive> void serialize(Archive& ar, yade::Vector3r& v, const unsigned int)
 	{
 		ar& make_nvp("x", v[0]) & make_nvp("y", v[1]) & make_nvp("z", v[2]);
@@ -79,5 +73,5 @@ namespace serialization {
 		ar& make_nvp("m10", m(1, 0)) & make_nvp("m11", m(1, 1)) & make_nvp("m12", m(1, 2));
 		ar& make_nvp("m20", m(2, 0)) & make_nvp("m21", m(2, 1)) & make_nvp("m22", m(2, 2));
 	}
-}
-}
+} // namespace serialization
+} // namespace boost

@@ -30,7 +30,7 @@ bool pluginFitsRunningYade();
 template <class T> void registerPluginClass(const char* name)
 {
 	Singleton<ClassFactory>::instance().registerFactorable(
-	        name, [] { return static_cast<Factorable*>(new T); }, [] { return shared_ptr<Factorable>(new T); }, [] { return static_cast<void*>(new T); });
+		name, [] { return static_cast<Factorable*>(new T); }, [] { return shared_ptr<Factorable>(new T); }, [] { return static_cast<void*>(new T); });
 }
 
 } // namespace yade
@@ -48,12 +48,12 @@ the namespace for a moment because Boost's export macros open namespace boost. *
 		__attribute__((constructor)) void registerClassesOfThisFile()                                                                                  \
 		{                                                                                                                                              \
 			if (!pluginFitsRunningYade()) return;                                                                                                  \
-			const char* fileAndClasses[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_NAME, ~, classes) nullptr };                        \
-			Singleton<ClassFactory>::instance().registerPluginClasses(fileAndClasses);                                                              \
-			BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_FACTORY, ~, classes)                                                                           \
+			const char* fileAndClasses[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_NAME, ~, classes) nullptr };                       \
+			Singleton<ClassFactory>::instance().registerPluginClasses(fileAndClasses);                                                             \
+			BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_FACTORY, ~, classes)                                                                          \
 		}                                                                                                                                              \
 	}                                                                                                                                                      \
-	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_PYTHON, ~, classes)                                                                                            \
+	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_PYTHON, ~, classes)                                                                                           \
 	}                                                                                                                                                      \
-	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_EXPORT, ~, classes)                                                                                            \
+	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_EXPORT, ~, classes)                                                                                           \
 	namespace yade {

@@ -9,7 +9,7 @@ namespace yade {
 /* Root of every class that YADE makes by name. */
 class Factorable : public boost::enable_shared_from_this<Factorable> {
 public:
-	Factorable() { }
+	Factorable() {}
 	virtual ~Factorable();
 	virtual std::string getBaseClassName(unsigned int i = 0) const;
 	virtual int         getBaseClassNumber() const;

@@ -18,7 +18,7 @@ protected:
 	virtual int& modifyClassIndex()                         = 0;
 
 public:
-	virtual ~Indexable() { }
+	virtual ~Indexable() {}
 	virtual const int& getClassIndex() const                      = 0;
 	virtual const int& getBaseClassIndex(int depth) const         = 0;
 	virtual const int& getMaxCurrentlyUsedClassIndexOfKin() const = 0;

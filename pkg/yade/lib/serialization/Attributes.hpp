@@ -37,11 +37,13 @@ template <int flags, class Class, class Self, class T>
 void exposeAttribute(Class& pythonClass, const char* name, T Self::*member, const std::string& docAndType)
 {
 	namespace py = boost::python;
-	if constexpr (flags & Attr::hidden) return;
+	if constexpr (flags & Attr::hidden)
+		return;
 	else {
 		const std::string doc    = docAndType + " :yattrflags:`" + std::to_string(flags) + "` ";
 		const py::object  getter = [&] {
-                        if constexpr (IsEigen<T>::value && !(flags & Attr::readonly)) return py::make_getter(member, py::return_internal_reference<>());
+                        if constexpr (IsEigen<T>::value && !(flags & Attr::readonly))
+                                return py::make_getter(member, py::return_internal_reference<>());
                         else
                                 return py::make_getter(member, py::return_value_policy<py::return_by_value>());
 		}();
@@ -71,9 +73,8 @@ template <class T> boost::python::object initFromKeywords(boost::python::tuple s
 	boost::shared_ptr<T> instance(new T);
 	instance->pyHandleCustomCtorArgs(args, keywords);
 	if (const auto n = py::len(args); n > 0) {
-		throw std::runtime_error(
-		        instance->getClassName() + " takes its attributes as keywords, " + instance->getClassName() + "(name=value, ...); got "
-		        + std::to_string(n) + " argument" + (n > 1 ? "s" : "") + " without a name.");
+		throw std::runtime_error(instance->getClassName() + " takes its attributes as keywords, " + instance->getClassName() + "(name=value, ...); got "
+					 + std::to_string(n) + " argument" + (n > 1 ? "s" : "") + " without a name.");
 	}
 	if (py::len(keywords) > 0) instance->pyUpdateAttrs(keywords); // which calls callPostLoad too
 

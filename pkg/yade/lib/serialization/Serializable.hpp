@@ -31,10 +31,10 @@ namespace yade {
 
 class Serializable : public Factorable {
 	friend class boost::serialization::access;
-	template <class Archive> void serialize(Archive&, const unsigned int) { }
+	template <class Archive> void serialize(Archive&, const unsigned int) {}
 
 public:
-	Serializable() { }
+	Serializable() {}
 	virtual ~Serializable();
 	std::string                   getBaseClassName(unsigned int i = 0) const override;
 	int                           getBaseClassNumber() const override;
@@ -51,10 +51,10 @@ public:
 	std::string pyStr();
 
 	/* A class that wants to be told hides these with its own, e.g. void postLoad(MyClass&). */
-	template <class T> void preLoad(T&) { }
-	template <class T> void postLoad(T&) { }
-	template <class T> void preSave(T&) { }
-	template <class T> void postSave(T&) { }
+	template <class T> void preLoad(T&) {}
+	template <class T> void postLoad(T&) {}
+	template <class T> void preSave(T&) {}
+	template <class T> void postSave(T&) {}
 };
 YADE_LAYOUT_SIZE(Serializable, 24)
 
@@ -71,7 +71,7 @@ YADE_LAYOUT_SIZE(Serializable, 24)
 #define YADE_ATTR_SKIP(data, attr)
 #define YADE_ATTR_LOOP(r, macroAndData, i, attr)                                                                                                               \
 	BOOST_PP_IF(i, BOOST_PP_TUPLE_ELEM(2, 0, macroAndData), YADE_ATTR_SKIP)(BOOST_PP_TUPLE_ELEM(2, 1, macroAndData), attr)
-#define YADE_ATTR_FOR_EACH(macro, data, attrs) BOOST_PP_SEQ_FOR_EACH_I(YADE_ATTR_LOOP, (macro, data), (~) attrs)
+#define YADE_ATTR_FOR_EACH(macro, data, attrs) BOOST_PP_SEQ_FOR_EACH_I(YADE_ATTR_LOOP, (macro, data), (~)attrs)
 
 #define YADE_ATTR_DECLARE(data, attr) YADE_ATTR_TYPE(attr) YADE_ATTR_NAME(attr);
 #define YADE_ATTR_INITIALIZE(data, attr) , YADE_ATTR_NAME(attr)(YADE_ATTR_DEFAULT(attr))
@@ -90,11 +90,8 @@ YADE_LAYOUT_SIZE(Serializable, 24)
 	if constexpr (!(YADE_ATTR_FLAGS(attr) & Attr::noSave))                                                                                                 \
 		archive& ::boost::serialization::make_nvp(BOOST_PP_STRINGIZE(YADE_ATTR_NAME(attr)), YADE_ATTR_NAME(attr));
 #define YADE_ATTR_EXPOSE(data, attr)                                                                                                                           \
-	::yade::exposeAttribute<YADE_ATTR_FLAGS(attr)>(                                                                                                        \
-	        pythonClass,                                                                                                                                   \
-	        BOOST_PP_STRINGIZE(YADE_ATTR_NAME(attr)),                                                                                                      \
-	        &Self::YADE_ATTR_NAME(attr),                                                                                                                   \
-	        YADE_ATTR_DOC(attr) " :ydefault:`" BOOST_PP_STRINGIZE(YADE_ATTR_DEFAULT(attr)) "` :yattrtype:`" BOOST_PP_STRINGIZE(YADE_ATTR_TYPE(attr)) "`");
+	::yade::exposeAttribute<YADE_ATTR_FLAGS(attr)>(pythonClass, BOOST_PP_STRINGIZE(YADE_ATTR_NAME(attr)), &Self::YADE_ATTR_NAME(attr),                     \
+									    YADE_ATTR_DOC(attr) " :ydefault:`" BOOST_PP_STRINGIZE(YADE_ATTR_DEFAULT(attr)) "` :yattrtype:`" BOOST_PP_STRINGIZE(YADE_ATTR_TYPE(attr)) "`");
 
 /* The members every class of a plugin has. YADE_PLUGIN defines pyRegisterClass, the first virtual function that is not
 inline: vtable, typeinfo and all this are compiled once, where YADE_PLUGIN stands. */
@@ -102,11 +99,11 @@ inline: vtable, typeinfo and all this are compiled once, where YADE_PLUGIN stand
 public:                                                                                                                                                        \
 	YADE_ATTR_FOR_EACH(YADE_ATTR_DECLARE, ~, attrs)                                                                                                        \
 	cls()                                                                                                                                                  \
-	        : base() YADE_ATTR_FOR_EACH(YADE_INIT_MEMBER, ~, init) YADE_ATTR_FOR_EACH(YADE_ATTR_INITIALIZE, ~, attrs)                                      \
+	    : base() YADE_ATTR_FOR_EACH(YADE_INIT_MEMBER, ~, init) YADE_ATTR_FOR_EACH(YADE_ATTR_INITIALIZE, ~, attrs)                                          \
 	{                                                                                                                                                      \
 		ctor;                                                                                                                                          \
 	}                                                                                                                                                      \
-	virtual ~cls() { }                                                                                                                                     \
+	virtual ~cls() {}                                                                                                                                      \
 	void        pyRegisterClass(::boost::python::object scope) override;                                                                                   \
 	std::string getClassName() const override { return #cls; }                                                                                             \
 	std::string getBaseClassName(unsigned int i = 0) const override { return i == 0 ? #base : ""; }                                                        \
@@ -135,21 +132,23 @@ private:                                                                        
 	template <class Archive> void serialize(Archive& archive, const unsigned int)                                                                          \
 	{                                                                                                                                                      \
 		archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(base);                                                                                            \
-		if constexpr (Archive::is_loading::value) this->preLoad(*this);                                                                                \
+		if constexpr (Archive::is_loading::value)                                                                                                      \
+			this->preLoad(*this);                                                                                                                  \
 		else                                                                                                                                           \
 			this->preSave(*this);                                                                                                                  \
 		YADE_ATTR_FOR_EACH(YADE_ATTR_SERIALIZE, ~, attrs)                                                                                              \
-		if constexpr (Archive::is_loading::value) this->postLoad(*this);                                                                               \
+		if constexpr (Archive::is_loading::value)                                                                                                      \
+			this->postLoad(*this);                                                                                                                 \
 		else                                                                                                                                           \
 			this->postSave(*this);                                                                                                                 \
 	}                                                                                                                                                      \
 	template <class Self> void registerInPython(::boost::python::object scope)                                                                             \
 	{                                                                                                                                                      \
 		this->checkPyClassRegistersItself(#cls);                                                                                                       \
-		::boost::python::scope                                                                                                  inScope(scope);        \
-		::boost::python::docstring_options                                                                                      docs(true, true, false); \
-		::boost::python::class_<Self, ::boost::shared_ptr<Self>, ::boost::python::bases<base>, ::boost::noncopyable> pythonClass(                         \
-		        #cls, doc, ::boost::python::no_init);                                                                                                  \
+		::boost::python::scope                                                                                       inScope(scope);                   \
+		::boost::python::docstring_options                                                                           docs(true, true, false);          \
+		::boost::python::class_<Self, ::boost::shared_ptr<Self>, ::boost::python::bases<base>, ::boost::noncopyable> pythonClass(                      \
+			#cls, doc, ::boost::python::no_init);                                                                                                  \
 		pythonClass.def("__init__", ::boost::python::raw_function(&::yade::initFromKeywords<Self>, 1));                                                \
 		YADE_ATTR_FOR_EACH(YADE_ATTR_EXPOSE, ~, attrs)                                                                                                 \
 		(void)(pythonClass pyChain);                                                                                                                   \

@@ -7,12 +7,11 @@ namespace yade {
 
 class PeriodicEngine : public GlobalEngine {
 	YADE_DECLARED_CLASS(PeriodicEngine)
-	YADE_DECLARED_SERIALIZE(
-	        GlobalEngine, (virtPeriod)(realPeriod)(iterPeriod)(nDo)(initRun)(firstIterRun)(virtLast)(realLast)(iterLast)(nDone))
+	YADE_DECLARED_SERIALIZE(GlobalEngine, (virtPeriod)(realPeriod)(iterPeriod)(nDo)(initRun)(firstIterRun)(virtLast)(realLast)(iterLast)(nDone))
 
 	/* Real time counts from the making of the engine. */
 	PeriodicEngine()
-	        : realLast(std::chrono::duration<Real>(std::chrono::system_clock::now().time_since_epoch()).count())
+	    : realLast(std::chrono::duration<Real>(std::chrono::system_clock::now().time_since_epoch()).count())
 	{
 	}
 	bool isActivated() override;

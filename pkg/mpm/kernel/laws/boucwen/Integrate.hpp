@@ -137,7 +137,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 			}
 			// the difference alone misses a flow that vanishes inside the sub-step, between loading and unloading
 			const bool   kinks  = (mDe1[l] < 0) != (mDe2[l] < 0);
-			const double error2 = kinks & (flow2 > difference2) ? flow2 : difference2;
+			const double error2 = (kinks & (flow2 > difference2)) ? flow2 : difference2;
 			const double most = .25 * tolerance * tolerance * sy * sy, relative = (kinks ? 0 : tolerance * flow2) + floor * floor * length2;
 			excess[l] = error2 / ((paper ? most : std::min(most, relative)) + 1e-300);
 			for (int k = 0; k < size; ++k)
@@ -189,7 +189,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 			}
 			const double t2 = tolerance * tolerance, atKink = turns[l] != 0 ? ErrorBound::kink * sy : 0;
 			const double perFlow = ErrorBound::perFlow * ErrorBound::perFlow * flow2 + least2 * length2 + atKink * atKink;
-			excess[l] = error2 / (t2 * std::min(ErrorBound::cap * ErrorBound::cap * sy * sy, perFlow) + 1e-300);
+			excess[l]            = error2 / (t2 * std::min(ErrorBound::cap * ErrorBound::cap * sy * sy, perFlow) + 1e-300);
 		});
 		if (end()) return giveUpLost();
 		advance([&](int l) { return .9 / std::sqrt(std::sqrt(std::sqrt(excess[l]))); });
