@@ -223,7 +223,7 @@ void MpmEngine::prepareSolver()
 	int  internals  = 0;
 	bool freeNormal = false;
 	for (const mpm::Law& law : runtime.laws) {
-		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !mpm::keepsVolume(law));
+		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !law.keepsVolume());
 		internals  = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));

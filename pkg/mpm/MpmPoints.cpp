@@ -50,7 +50,8 @@ void MpmPoints::updateLaws()
 bool MpmPoints::keepsInternals(const mpm::Law& before, const mpm::Law& after) const
 {
 	const mpm::Internals a = mpm::Internals::of(before), b = mpm::Internals::of(after);
-	return points.internal.empty() || a.columns(1) == 0 || (a.tensors == b.tensors && a.scalars == b.scalars && before.kind == after.kind);
+	return points.internal.empty() || a.columns(1) == 0
+	       || (a.tensors == b.tensors && a.scalars == b.scalars && before.model.index() == after.model.index());
 }
 
 void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& material)
@@ -226,7 +227,7 @@ Matrix3r MpmPoints::strain(std::size_t p) const
 	} else
 		strain = .5 * (F + F.transpose()) - Matrix3r::Identity();
 	if (points.stress.size() == 3) { // plane stress: the thickness is free to follow, whether or not the method follows it
-		if (!points.freeStrain.empty() && !keepsVolume(runtime.laws[std::size_t(points.material[p])]))
+		if (!points.freeStrain.empty() && !runtime.laws[std::size_t(points.material[p])].keepsVolume())
 			strain(2, 2) = points.freeStrain[p];
 		else {
 			const auto& elastic = dynamic_cast<const ElastMat&>(*materials[std::size_t(points.material[p])]);

@@ -178,7 +178,7 @@ struct HystereticBar {
 		const double h = 1. / cells;
 		Scene        s;
 		Law          law      = Scene::boucWen(young, 0, density, yieldStress, 2, ratio);
-		law.boucWen.tolerance = tolerance;
+		as<BoucWen>(law).tolerance = tolerance;
 		s.laws                = { law };
 		s.walls               = { Scene::wall(0, 1, 0, Wall::Kind::slip), Scene::wall(0, -1, 1, Wall::Kind::slip) };
 		s.addBox(1, { 0, 0, 0 }, { 1, 0, 0 }, h / pointsPerCell);

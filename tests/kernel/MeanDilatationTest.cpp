@@ -21,10 +21,9 @@ constexpr std::array<Analysis, 3> confined { Analysis::planeStrain, Analysis::ax
 Law j2(double young, double poisson, double density, double yieldStress, double modulus)
 {
 	Law law                  = Scene::elastic(young, poisson, density);
-	law.kind                 = Law::Kind::j2;
-	law.j2.elastic           = law.elastic;
-	law.j2.yieldStress       = yieldStress;
-	law.j2.isotropic.modulus = modulus;
+	law.model                     = J2();
+	as<J2>(law).yieldStress       = yieldStress;
+	as<J2>(law).isotropic.modulus = modulus;
 	return law;
 }
 

@@ -24,7 +24,6 @@ namespace {
 			}
 		return mean;
 	}
-	bool letsGo(const Law& law) { return law.kind == Law::Kind::druckerPrager; }
 
 	/* Which of two neighbours has the other on its list. Oblique, so that no usual lattice has neighbours in the plane. */
 	bool isAhead(const Eigen::Vector3d& dX) { return dX.dot(Eigen::Vector3d(1, .41, .17)) > 0; }
@@ -140,7 +139,7 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 	auto               before = [](const Entry& a, const Entry& b) { return a.bin < b.bin; };
 	std::vector<Entry> entries;
 	for (std::size_t p = 0; p < n; ++p) {
-		if (letsGo(laws[std::size_t(points.material[p])])) continue;
+		if (laws[std::size_t(points.material[p])].hasTensionCutoff()) continue;
 		const Eigen::Vector3d x = positionOf(points, p) / width;
 		entries.push_back({ { int(std::floor(x[0])), int(std::floor(x[1])), int(std::floor(x[2])) }, p });
 	}
@@ -185,7 +184,7 @@ void Continuity::findFootings(const Points& points, const std::vector<Law>& laws
 		if (walls[w].kind != Wall::Kind::fixed) continue;
 		for (std::size_t slot = 0; slot < m_place.size(); ++slot) {
 			const std::size_t p = m_place[slot];
-			if (p == nowhere || letsGo(laws[std::size_t(points.material[p])])) continue;
+			if (p == nowhere || laws[std::size_t(points.material[p])].hasTensionCutoff()) continue;
 			const double distance = depth(points, p, walls[w]) / stretchAlong(points, walls[w].axis, p);
 			if (distance >= .75 * points.size[p]) continue; // not in the layer next to it
 			memory.footings.push_back(Slot(slot)), memory.walls.push_back(Slot(w)), memory.depths.push_back(distance);
