@@ -5,6 +5,9 @@
 
 namespace yade::mpm::detail {
 
+/* H1 H2 below this times the tolerance counts as no flow. */
+constexpr double leastFlow = 3e-4;
+
 inline bool isHalfOrWhole(double n) { return 2 * n <= 2048 && 2 * n == int(2 * n); }
 
 /* z^n; n is a whole or half number in most scenes, which avoids the call of pow. Up to `small`, pow may give 0. */
@@ -74,7 +77,7 @@ void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloadi
 	using std::sqrt, std::abs;
 	using Y          = BoucWenVector<S, options>;
 	constexpr int N  = S::N;
-	const double  sy = law.yieldStress, inverseYield = 1 / sy, least = 1e-3 * law.tolerance, loading = law.beta + law.gamma,
+	const double  sy = law.yieldStress, inverseYield = 1 / sy, least = leastFlow * law.tolerance, loading = law.beta + law.gamma,
 		     unloading = law.beta - law.gamma;
 	Reals<W, T> radius, slope, f, z, H;
 	if constexpr (options) {
