@@ -277,7 +277,7 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 		point.strain(strain);
 		EXPECT_FALSE(std::isfinite(point.sigma[0]));
 	}
-	// under a pressure whose rounding is more than the tolerance
+	// under a pressure whose rounding is more than the tolerance: no number, or the surface to that rounding
 	Law law                 = boucWenLaw(200, 0, 1e-8);
 	law.elastic                  = { youngModulus, .4999 };
 	as<BoucWen>(law).yieldStress = 1e-12 * youngModulus;
@@ -285,7 +285,9 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 	point.strain({ .1, .1, .1, 0 });
 	for (int k = 0; k < 5 && std::isfinite(point.sigma[0]); ++k)
 		point.strain({ 3e-11, -2e-11, -1e-11, 2e-11 });
-	EXPECT_FALSE(std::isfinite(point.sigma[0]));
+	if (std::isfinite(point.sigma[0])) {
+		EXPECT_LE(std::sqrt(PlaneStrain::mises2(point.sigma)), as<BoucWen>(law).yieldStress + 4e-16 * std::abs(point.sigma[0]));
+	}
 }
 
 /* With the sign as printed f comes to 4 sigma_y, and falls back when the total strain has changed its sign: at the rate 4^n, which for a large n no
