@@ -182,7 +182,7 @@ template <class S> constexpr int componentOf(int d, int e)
 {
 	const int solid = d == e ? d : 6 - d - e; // xx, yy, zz, yz, zx, xy
 	for (int k = 0; k < S::N; ++k)
-		if (S::solid[k] == solid) return k;
+		if (S::voigtIndex[std::size_t(k)] == solid) return k;
 	return -1;
 }
 
