@@ -36,6 +36,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 	using Y         = BoucWenVector<S, options>;
 	constexpr int N = S::N, size = Y::size;
 	const double  nan = std::numeric_limits<double>::quiet_NaN(), tolerance = law.tolerance, sy = law.yieldStress;
+	const double  leastError = std::max(ErrorBound::floor * tolerance, 1e-14), least2 = leastError * leastError / (tolerance * tolerance); // above rounding
 	const bool    remembers = options && law.remembers(), paper = options && law.paper();
 	// up to this f/sigma_y, H1 H2 is below the threshold of flow
 	const double small = options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(leastFlow * tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
@@ -127,7 +128,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 		forLanes<W>([&](int l) {
 			/* Half the difference of the two flows is the error of the first-order member; over the flow it is r. The second-order member is
 			carried on; of its flow r^2/3 is wrong where flow grows like an exponential, as it does below the knee. */
-			const double elastic = 2 * elasticFactor(l), floor = 2 * ErrorBound::floor * tolerance;
+			const double elastic = 2 * elasticFactor(l), floor = 2 * leastError;
 			double       difference2 = 0, flow2 = 0, length2 = 0;
 			for (int k = 0; k < 2 * N; ++k) {
 				const double first = valueOf(dy1[k][l]), second = valueOf(dy2[k][l]), difference = second - first,
@@ -187,8 +188,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 				error2 += error * error, flow2 += flow * flow, length2 += part * part;
 			}
 			const double t2 = tolerance * tolerance, atKink = turns[l] != 0 ? ErrorBound::kink * sy : 0;
-			const double perFlow =
-				ErrorBound::perFlow * ErrorBound::perFlow * flow2 + ErrorBound::floor * ErrorBound::floor * length2 + atKink * atKink;
+			const double perFlow = ErrorBound::perFlow * ErrorBound::perFlow * flow2 + least2 * length2 + atKink * atKink;
 			excess[l] = error2 / (t2 * std::min(ErrorBound::cap * ErrorBound::cap * sy * sy, perFlow) + 1e-300);
 		});
 		if (end()) return giveUpLost();
