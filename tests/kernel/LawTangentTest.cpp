@@ -50,7 +50,8 @@ TYPED_TEST(LawTangent, IsTheDerivativeOfTheUpdate)
 		SCOPED_TRACE(named.name);
 		Law law = named.law;
 		if (is<BoucWen>(law)) as<BoucWen>(law).tolerance = 1e-12;
-		const bool                             jumps = is<BoucWen>(law) && (as<BoucWen>(law).pinching != 0 || as<BoucWen>(law).paper());
+		if (is<BoucWen>(law) && as<BoucWen>(law).paper()) as<BoucWen>(law).tolerance = 1e-8; // its sub-steps are of second order
+		const bool jumps = is<BoucWen>(law) && (as<BoucWen>(law).pinching != 0 || as<BoucWen>(law).paper());
 		std::mt19937                           random(11);
 		std::uniform_real_distribution<double> unit(0, 1);
 		std::normal_distribution<double>       normal;
