@@ -7,6 +7,7 @@
 #include <core/Bound.hpp>
 #include <core/ForceContainer.hpp>
 #include <core/Interaction.hpp>
+#include <pkg/common/ElastMat.hpp>
 
 namespace yade {
 
@@ -132,8 +133,12 @@ void BodyLinks::refuseStates(Scene& scene, const mpm::Points& points, int dim) c
 		if (!state) continue;
 		const std::string body  = "O.bodies[" + std::to_string(id) + "].state";
 		const Vector3r&   force = scene.forces.getForce(id);
+		const auto* material = dynamic_cast<const ElastMat*>(m_links[std::size_t(id)].body->material.get());
+		const bool  halved   = material && material->poisson == 0 && !m_links[std::size_t(id)].body->intrs.empty();
 		require(force.allFinite(), "O.forces", "f(" + std::to_string(id) + ")", force.transpose(),
-			"look at the engine, contact or script that applies it");
+			halved ? "in a contact of two materials with poisson = 0 YADE divides zero by zero for the tangential stiffness; give one of them a small "
+				 "poisson, e.g. 1e-3"
+			       : "look at the engine, contact or script that applies it");
 		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");
 		require(state->pos.allFinite(), body, "pos", state->pos.transpose(), "give a finite position [m]");
 		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],

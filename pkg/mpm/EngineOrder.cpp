@@ -48,6 +48,11 @@ void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const En
 	m_checked = std::move(order);
 }
 
+bool EngineOrder::hasContacts() const
+{
+	return std::any_of(m_checked.begin(), m_checked.end(), [](const Entry& entry) { return entry.role == Role::loop && !entry.dead; });
+}
+
 bool EngineOrder::checkClocks(bool setsStep) const
 {
 	long here = -1, stepper = -1, newton = -1, loop = -1;

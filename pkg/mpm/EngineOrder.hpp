@@ -16,6 +16,9 @@ public:
 	grains by different steps, since a contact's impulses on the two would then differ. */
 	bool checkClocks(bool setsStep) const;
 
+	/* Whether contacts are computed. */
+	bool hasContacts() const;
+
 private:
 	enum class Role { other, self, stepper, newton, loop };
 	struct Entry { // of O.engines at the last check

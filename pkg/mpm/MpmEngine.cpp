@@ -76,7 +76,7 @@ void MpmEngine::step()
 	m_points->runtime.failed = true; // unless it comes to its end
 	m_points->runtime.solver->step(control);
 	m_points->runtime.failed = false;
-	if (m_bodies > 0) m_links.write(*scene, m_points->points);
+	if (m_bodies > 0) links().write(*scene, m_points->points);
 	if (control.trackEnergy) reportEnergies();
 	if (TimingInfo::enabled) clock.lap("points to bodies");
 	wallsLeft.resize(walls.size());
@@ -125,9 +125,8 @@ MpmEngine::Attached MpmEngine::attach()
 
 void MpmEngine::postLoad(MpmEngine&)
 {
-	std::string fault = mpm::faultOf(continuity.memory);
-	if (!fault.empty()) fault = "continuity." + fault;
-	if (fault.empty() && !(untilLook >= 0 && untilLook <= lookInterval && lookInterval <= longestLookInterval))
+	std::string fault;
+	if (!(untilLook >= 0 && untilLook <= lookInterval && lookInterval <= longestLookInterval))
 		fault = "untilLook = " + std::to_string(untilLook) + " with lookInterval = " + std::to_string(lookInterval) + " cannot be";
 	if (!fault.empty()) throw std::runtime_error("MpmEngine." + fault + ": the saved scene is damaged; load another copy of it");
 }
@@ -169,6 +168,7 @@ mpm::StepControl MpmEngine::prepare()
 	checkKinematics(analysisKind);
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
+	if (m_order.hasContacts()) m_points->requireContactLaw();
 	if (m_points->updateMasses()) forgetStep();
 	prepareWalls(dim, analysisKind == mpm::Analysis::axisymmetric);
 	prepareSolver();
@@ -253,7 +253,7 @@ void MpmEngine::prepareSolver()
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
-		if (m_points->filled) continuity.forget(), forgetStep(); // ids of erased bodies are given again
+		if (m_points->filled) m_points->continuity.forget(), forgetStep(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
 		m_valuesDue      = true;
 		m_points->filled = false;
@@ -383,32 +383,39 @@ void MpmEngine::checkContinuity(const mpm::StepControl& control)
 {
 	if (largestGap == std::numeric_limits<Real>::infinity()) return;
 	const auto stands = [](const shared_ptr<MpmWall>& wall, const Vector3r& origin) { return wall->origin == origin; };
-	if (!std::equal(walls.begin(), walls.end(), wallsLeft.begin(), wallsLeft.end(), stands)) continuity.forget(); // put elsewhere by a script
+	if (!std::equal(walls.begin(), walls.end(), wallsLeft.begin(), wallsLeft.end(), stands)) m_points->continuity.forget(); // put elsewhere by a script
 	if (untilLook > 0) {
 		--untilLook;
 		return;
 	}
 	m_points->finish(); // a scene that is loaded here has no stress update pending, and must see the same gaps
-	continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
+	m_points->continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
 	const Real crossing = m_points->runtime.solver->crossingRate() * control.dt;
 	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / crossing, 10., Real(longestLookInterval))));
+}
+
+BodyLinks& MpmEngine::links()
+{
+	auto& links = m_points->runtime.links;
+	if (!links) links = std::make_shared<BodyLinks>();
+	return *links;
 }
 
 /* Takes from the points' bodies what scripts and other engines have done since the last step. */
 void MpmEngine::readBodies()
 {
 	if (m_bodies == 0) return;
-	const BodyLinks::Changes changes = m_links.read(*scene, *m_points);
+	const BodyLinks::Changes changes = links().read(*scene, *m_points);
 	for (const std::size_t p : changes.otherMaterial) {
 		m_points->finish();
-		m_points->changeMaterial(p, m_links.body(m_points->points.id[p]).material);
-		continuity.forget(); // points of some laws are left out of its check
+		m_points->changeMaterial(p, links().body(m_points->points.id[p]).material);
+		m_points->continuity.forget(); // points of some laws are left out of its check
 		forgetStep();
 		prepareSolver();
 	}
 	for (const std::size_t p : changes.otherMass) {
 		const int  id   = m_points->points.id[p];
-		const Real mass = m_links.body(id).state->mass;
+		const Real mass = links().body(id).state->mass;
 		require(mass > 0 && std::isfinite(mass), "O.bodies[" + std::to_string(id) + "].state", "mass", mass, "give a material point a mass > 0 [kg]");
 		m_points->finish();
 		m_points->setMass(p, mass);
@@ -420,9 +427,9 @@ void MpmEngine::readBodies()
 	m_points->finish();
 	for (const std::size_t p : changes.moved)
 		for (int d = 0; d < 3; ++d)
-			points.position[std::size_t(d)][p] = m_links.body(points.id[p]).state->pos[d];
+			points.position[std::size_t(d)][p] = links().body(points.id[p]).state->pos[d];
 	if (changes.erased) m_points->dropErased(*scene->bodies);
-	if (!changes.moved.empty()) continuity.forget();
+	if (!changes.moved.empty()) m_points->continuity.forget();
 	m_points->runtime.solver->pointsChanged();
 	checkPoints(m_points->runtime.solver->analysis());
 }

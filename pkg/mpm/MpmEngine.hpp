@@ -6,18 +6,8 @@
 #include "EngineOrder.hpp"
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
-#include "kernel/Continuity.hpp"
 #include <core/GlobalEngine.hpp>
 #include <core/Timing.hpp>
-
-namespace boost::serialization {
-template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
-{
-	yade::mpm::Continuity::Memory& m = continuity.memory;
-	archive&                       make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
-	archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
-}
-} // namespace boost::serialization
 
 namespace yade {
 
@@ -53,7 +43,6 @@ public:
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
 		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, full mass or not, number of points, grid, walls and laws for which the stable step was last found"))
 		((Real, checkedStep, 0, (Attr::hidden), "Steps up to this one are known to be stable [s]"))
-		((mpm::Continuity, continuity, , Attr::hidden, "What the check for gaps knows of neighbours"))
 		((long, untilLook, 0, (Attr::hidden), "Steps to the next look at the gaps"))
 		((long, lookInterval, 5, (Attr::hidden), "Steps from the last look at the gaps to the next one"))
 		((std::vector<Vector3r>, wallsLeft, , (Attr::hidden), "Origins of the walls, as the last step has left them"))
@@ -75,7 +64,6 @@ private:
 	std::size_t                                m_checkedCount = 0;
 	bool                                       m_valuesDue    = true; // columns have not been looked through for numbers that are not finite
 	EngineOrder                                m_order;
-	BodyLinks                                  m_links;
 
 	struct Attached { // the points are let go of after the lock
 		shared_ptr<MpmPoints>        points;
@@ -100,6 +88,7 @@ private:
 	void                         adaptStep(mpm::StepControl& control, bool stepper);
 	void                         checkContinuity(const mpm::StepControl& control);
 	void                         readBodies();
+	BodyLinks&                   links();
 	void                         reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);

@@ -29,6 +29,16 @@ shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 	return {};
 }
 
+shared_ptr<MpmPoints> MpmPoints::ofScene()
+{
+	Scene&                scene  = *Omega::instance().getScene();
+	shared_ptr<MpmPoints> points = of(scene);
+	if (points) return points;
+	points.reset(new MpmPoints);
+	scene.miscParams.push_back(points);
+	return points;
+}
+
 void MpmPoints::finish()
 {
 	try {
@@ -52,6 +62,14 @@ void MpmPoints::updateLaws()
 		} catch (const std::runtime_error&) {
 			if (inUse(m)) throw;
 		}
+}
+
+void MpmPoints::requireContactLaw() const
+{
+	for (std::size_t m = 0; m < materials.size(); ++m)
+		if (!dynamic_cast<const FrictMat*>(materials[m].get()) && inUse(m))
+			throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label
+				+ "': O.engines has an InteractionLoop, and YADE aborts at a contact of this material; give the points a FrictMat, which is as elastic");
 }
 
 bool MpmPoints::updateMasses()
@@ -175,6 +193,7 @@ void MpmPoints::postLoad(MpmPoints&)
 	std::string fault = mpm::faultOf(points, materials.size());
 	for (const auto& material : materials)
 		if (!material && fault.empty()) fault = "materials has an empty entry";
+	if (const std::string neighbours = mpm::faultOf(continuity.memory); fault.empty() && !neighbours.empty()) fault = "continuity." + neighbours;
 	const auto least = std::min_element(points.id.begin(), points.id.end());
 	if (fault.empty() && (nextBodyless >= 0 || (least != points.id.end() && nextBodyless >= *least)))
 		fault = "nextBodyless = " + std::to_string(nextBodyless) + " is no id for a new point";

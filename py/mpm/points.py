@@ -106,11 +106,10 @@ def _engine():
 
 
 def _points(create=False):
+	if create: return wrapper.MpmPoints.ofScene()
 	for item in O.miscParams:
 		if isinstance(item, wrapper.MpmPoints): return item
-	points = wrapper.MpmPoints()
-	if create: O.miscParams = list(O.miscParams) + [points]
-	return points
+	return wrapper.MpmPoints()
 
 
 def findMaterial(material, caller):

@@ -61,7 +61,7 @@ def column(tag, start=begin, end=None):
 	m = re.compile('<%s(?: [^>]*)?>' % tag).search(good, start)
 	if not m: return None
 	close = good.index('</%s>' % tag, m.end())
-	n = re.compile(r'<count>(\d+)</count>\s*<item_version>0</item_version>((?:\s*<item>[^<]*</item>)*)').search(good, m.end(), close)
+	n = re.compile(r'<count>(\d+)</count>\s*<item_version>0</item_version>((?:\s*<item>[^<]*</item>)+)').search(good, m.end(), close)
 	return (n.start(), n.end(), re.findall('<item>([^<]*)</item>', n.group(2))) if n else None
 
 
@@ -88,8 +88,8 @@ for tag, values in ('material', ('-1', '2', '99999')), ('id', ('1', '-2147483648
 start = good.index('<continuity')
 for tag, bound in ('ids', None), ('neighbours', 20), ('dX', None), ('footings', 20), ('walls', 1), ('depths', None):
 	where = column(tag, good.index('<' + tag, start))
-	refused('continuity.%s longer' % tag, put(where, where[2] + where[2][-1:]), 'MpmEngine.continuity.')
-	if bound: refused('continuity.%s out of range' % tag, put(where, ['99999'] + where[2][1:]), 'MpmEngine.continuity.' + tag, '99999')
+	refused('continuity.%s longer' % tag, put(where, where[2] + where[2][-1:]), 'MpmPoints.continuity.')
+	if bound: refused('continuity.%s out of range' % tag, put(where, ['99999'] + where[2][1:]), 'MpmPoints.continuity.' + tag, '99999')
 refused('nextBodyless', re.sub('<nextBodyless>[^<]*<', '<nextBodyless>3<', good), 'MpmPoints.nextBodyless = 3')
 refused('untilLook', re.sub('<untilLook>[^<]*<', '<untilLook>1000000000000<', good), 'MpmEngine.untilLook')
 where = column('times', good.index('<times'))
