@@ -83,8 +83,9 @@ void MpmEngine::step()
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
-			walls[w]->force[d] = wall.force[std::size_t(d)];
-		wallsLeft[w] = walls[w]->origin += scene->dt * walls[w]->velocity;
+			walls[w]->force[d] = wall.force[std::size_t(d)], walls[w]->torque[d] = wall.torque[std::size_t(d)];
+		walls[w]->move(scene->dt);
+		wallsLeft[w] = walls[w]->origin;
 	}
 }
 
@@ -172,18 +173,19 @@ void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 		if (!walls[w]) refuse(self, "walls[" + std::to_string(w) + "]", "None", "give an MpmWall");
 		kernelWalls[w] = walls[w]->toKernel(w, dim);
 		for (std::size_t v = 0; v < w; ++v) {
-			const mpm::Wall &a = kernelWalls[v], &b = kernelWalls[w];
-			if (a.axis != b.axis) continue;
-			require(a.side != b.side, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+			if (!walls[v]->extent.empty() || !walls[w]->extent.empty()) continue;
+			const Real cosine = walls[v]->normal.normalized().dot(walls[w]->normal.normalized());
+			require(cosine < 1 - 1e-12, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
 				"two walls face the same way; give one wall a side");
-			require((b.position - a.position) * a.side > 0, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+			require(cosine > -1 + 1e-12 || (walls[w]->origin - walls[v]->origin).dot(walls[v]->normal) > 0, self, "walls",
+				"walls " + std::to_string(v) + " and " + std::to_string(w),
 				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
 	if (!axisymmetric) return;
 	bool inner = false;
 	for (const mpm::Wall& wall : kernelWalls) {
-		if (wall.axis != 0) continue;
+		if (!wall.mirrors() || wall.axis != 0) continue;
 		inner = inner || wall.side > 0;
 		require(wall.position > 0 || (wall.position == 0 && wall.side > 0 && wall.kind == mpm::Wall::Kind::slip), self, "walls",
 			"a wall normal to x at x = " + std::to_string(wall.position),

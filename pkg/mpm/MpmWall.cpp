@@ -14,14 +14,12 @@ mpm::Wall MpmWall::toKernel(std::size_t number, int dim) const
 	require(dim == 3 || velocity[2] == 0, name, "velocity", velocity.transpose(), "in a plane analysis nothing moves along z; give a velocity in x and y");
 	require(friction >= 0 && std::isfinite(friction), name, "friction", friction, "give a coefficient of friction >= 0");
 
+	require(angularVelocity.allFinite(), name, "angularVelocity", angularVelocity.transpose(), "give a finite angular velocity [rad/s]");
+	require(dim == 3 || (angularVelocity[0] == 0 && angularVelocity[1] == 0), name, "angularVelocity", angularVelocity.transpose(),
+		"in a plane analysis walls turn about z alone");
+
 	mpm::Wall      wall;
 	const Vector3r n = normal.normalized();
-	n.cwiseAbs().maxCoeff(&wall.axis);
-	require(std::abs(n[wall.axis]) > 1 - 1e-12, name, "normal", normal.transpose(),
-		"walls are normal to a coordinate axis; turn the scene (and gravity) so that this wall is too");
-	require(wall.axis < dim, name, "normal", normal.transpose(), "the analysis is plane, x and y; it has no walls normal to z");
-	wall.side     = n[wall.axis] > 0 ? 1 : -1;
-	wall.position = origin[wall.axis];
 	if (kind == "fixed")
 		wall.kind = mpm::Wall::Kind::fixed;
 	else if (kind == "slip")
@@ -30,10 +28,48 @@ mpm::Wall MpmWall::toKernel(std::size_t number, int dim) const
 		wall.kind = mpm::Wall::Kind::friction;
 	else
 		refuse(name, "kind", "'" + kind + "'", "choose 'fixed', 'slip' or 'friction'");
+	require(dim == 3 || std::abs(n[2]) < 1e-12, name, "normal", normal.transpose(), "the analysis is plane, x and y; it has no walls normal to z");
+	if (wall.mirrors()) {
+		const std::string contact = "kind '" + kind + "' is no contact; set kind = 'friction', or leave this out";
+		require(friction == 0, name, "friction", friction, contact);
+		require(extent.empty(), name, "extent", std::to_string(extent.size()) + " numbers", contact);
+		require(angularVelocity.isZero(), name, "angularVelocity", angularVelocity.transpose(), contact);
+		n.cwiseAbs().maxCoeff(&wall.axis);
+		require(std::abs(n[wall.axis]) > 1 - 1e-12, name, "normal", normal.transpose(),
+			"walls of kind '" + kind + "' are normal to a coordinate axis; set kind = 'friction', or turn the scene (and gravity) so that this wall is too");
+		wall.side     = n[wall.axis] > 0 ? 1 : -1;
+		wall.position = origin[wall.axis];
+	} else {
+		require(extent.size() <= (dim == 3 ? 2 : 1), name, "extent", std::to_string(extent.size()) + " numbers",
+			dim == 3 ? "give one half size for a disk or two for a rectangle [m]" : "give the half length of a segment [m]");
+		for (const Real half : extent)
+			require(half > 0 && std::isfinite(half), name, "extent", half, "the wall is empty; give half sizes > 0 [m], or none for the whole plane");
+		if (extent.size() == 2) {
+			require(along.allFinite() && along.norm() > 0 && std::abs(along.normalized().dot(n)) < 1e-9, name, "along", along.transpose(),
+				"give the direction of the rectangle's first side, normal to the wall's normal");
+			for (std::size_t d = 0; d < 3; ++d)
+				wall.along[d] = along.normalized()[int(d)];
+		}
+		wall.oblique = true;
+		wall.extent.assign(extent.begin(), extent.end());
+		for (std::size_t d = 0; d < 3; ++d)
+			wall.normal[d] = n[int(d)], wall.origin[d] = origin[int(d)], wall.angularVelocity[d] = angularVelocity[int(d)];
+		if (dim == 2) wall.normal[2] = 0;
+	}
 	wall.friction = friction;
 	for (int d = 0; d < 3; ++d)
 		wall.velocity[std::size_t(d)] = velocity[d];
 	return wall;
+}
+
+void MpmWall::move(Real dt)
+{
+	origin += dt * velocity;
+	const Real angle = dt * angularVelocity.norm();
+	if (angle == 0) return;
+	const AngleAxisr turn(angle, angularVelocity.normalized());
+	normal = (turn * normal).normalized();
+	along  = turn * along;
 }
 
 } // namespace yade

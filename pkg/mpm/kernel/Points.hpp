@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -29,14 +30,24 @@ struct Energies {
 	}
 };
 
+/* A force on a point that the next step starts from, kept by id: points change their places. */
+struct SurfaceForce {
+	int                   point = 0, other = 0; // ids: of the point, and of the wall or group that it is in contact with
+	std::array<double, 3> force {}, slip {};    // on the point [N]; elastic part of the slip [m]
+
+	bool operator<(const SurfaceForce& o) const { return point != o.point ? point < o.point : other < o.other; }
+};
+
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched, moving, spin, torque (no contacts).
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), fixed (no prescribed motion), touched, moving, spin, torque (no contacts with
+other bodies), reach (no curved body), contactForces (no contacts in place), reactions (no prescribed motion).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
 	std::vector<int>          material;        // index into the scene's table of laws
+	std::vector<int>          group;           // number of the point's group, 0: none; empty while the scene has no groups
 	Column                    mass, volume0;   // [kg], [m3] undeformed
 	Column                    size, thickness; // lattice spacing [m]; thickness [m] of a plane point, 0 of a 3D one, minus the circumference of a ring
 	Columns                   position { 3 }, velocity { 3 }; // all three axes, whatever the analysis
@@ -51,6 +62,9 @@ struct Points {
 	std::vector<std::uint8_t> touched;                        // whether force follows the position: a contact's does; said anew at every step
 	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
 	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
+
+	Column                    reach;                          // distance from the point to the surface of its body [m]; 0: half its size
+	std::vector<SurfaceForce> contactForces, reactions;       // of the last step: of contacts in place, and on prescribed points; by point
 
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
 
@@ -67,11 +81,13 @@ struct Points {
 		visit(thicknessStretch);
 		visit(dissipation);
 		visit(freeStrain);
+		visit(reach);
 	}
 	template <class Visitor> void forEachIndexColumn(Visitor&& visit)
 	{
 		visit(id);
 		visit(material);
+		visit(group);
 		visit(fixed);
 		visit(touched);
 	}
@@ -80,6 +96,7 @@ struct Points {
 	void append(int id_, int material_, const double* x, const double* v, double mass_, double volume_, double size_, double thickness_)
 	{
 		id.push_back(id_), material.push_back(material_);
+		if (!group.empty()) group.push_back(0);
 		mass.push_back(mass_), volume0.push_back(volume_), size.push_back(size_), thickness.push_back(thickness_);
 		for (int d = 0; d < 3; ++d)
 			position[d].push_back(x[d]), velocity[d].push_back(v[d]);
@@ -103,6 +120,7 @@ struct Points {
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
+		if (!reach.empty()) reach.resize(n, 0.);
 		if (!touched.empty()) prepareContacts();
 	}
 	/* Gives every point what points in contact need. */

@@ -13,6 +13,7 @@ struct Law {
 	enum class Kind { elastic, boucWen, j2, druckerPrager };
 	Kind                    kind    = Kind::elastic;
 	double                  density = 0;
+	double                  frictionAngle = 0; // of contacts between bodies of points [rad]
 	Hooke                   elastic;
 	BoucWenParameters       boucWen;
 	J2Parameters            j2;

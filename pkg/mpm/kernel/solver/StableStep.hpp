@@ -32,7 +32,6 @@ public:
 		sums.mass.resize(m_nodes), sums.radialMass.resize(hasHoop<S> ? m_nodes : 0), sums.leastMass = d.fields.leastMass;
 		for (NodeVector<dim>* field : { &sums.momentum, &sums.force, &sums.velocity })
 			field->fill(Field(m_nodes));
-		d.constraints.releaseContacts();
 		auto masses = [&](std::size_t t) { pointsToGrid<Sums::motion>(d.transfer, sums, control, t); };
 		sumOverTiles(d.transfer, masses, sums.mass, sums.radialMass, sums.momentum);
 		d.constraints.afterSums(sums.masses());
