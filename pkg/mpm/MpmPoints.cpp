@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmPoints.hpp"
+#include "BadInput.hpp"
 #include "Buffers.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
@@ -298,6 +299,23 @@ py::object MpmPoints::append(
 		points.prepare(int(points.advance.size()), int(points.stress.size()), int(points.internal.size()), !points.thicknessStretch.empty(),
 			!points.force.empty(), !points.dissipation.empty(), !points.freeStrain.empty());
 	return ids;
+}
+
+Vector3r MpmPoints::reaction(py::object ids)
+{
+	const std::lock_guard<std::mutex> lock(mutex);
+	Vector3r                          sum = Vector3r::Zero();
+	for (py::ssize_t k = 0, n = py::len(ids); k < n; ++k) {
+		const int         id = py::extract<int>(ids[k]);
+		const std::size_t p  = indexOf(id);
+		if (points.fixed.empty() || !points.fixed[p])
+			refuse("mpm.reaction", "ids", id, "the motion of this point is not prescribed, or has not been before the last step; set blockedDOFs of its body");
+		const auto at = std::lower_bound(points.reactions.begin(), points.reactions.end(), mpm::SurfaceForce { id, 0, {}, {} });
+		if (at == points.reactions.end() || at->point != id) continue;
+		for (int d = 0; d < 3; ++d)
+			sum[d] -= at->force[std::size_t(d)];
+	}
+	return sum;
 }
 
 py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strain, bool freeXX, bool freeYY, bool freeZZ)

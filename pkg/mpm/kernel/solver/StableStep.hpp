@@ -77,7 +77,7 @@ private:
 	Vector startVector()
 	{
 		Vector start(dim * m_nodes);
-		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at) {
+		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at, int) {
 			double phase = 1;
 			for (std::size_t d = 0; d < std::size_t(dim); ++d)
 				phase += node[d] * (12.9898 + 65.2431 * double(d));
