@@ -46,6 +46,13 @@ namespace {
 	{
 		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
 	}
+	/* Whether an engine of this class moves bodies: YADE knows the direct bases of a class. */
+	bool isKinematic(const std::string& name)
+	{
+		for (const char* base : { "KinematicEngine", "TranslationEngine", "RotationEngine" })
+			if (name == base || Omega::instance().isInheritingFrom(name, base)) return true;
+		return false;
+	}
 } // namespace
 
 void MpmEngine::action()
@@ -70,6 +77,7 @@ void MpmEngine::step()
 	if (m_points->count() == 0) return;
 	readBodies();
 	if (m_points->count() == 0) return; // the last ones have been erased
+	checkPrescribed();
 	const bool stepper = checkClocks();
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
@@ -306,6 +314,27 @@ void MpmEngine::checkEngineOrder()
 							 + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
 	}
 	m_checkedEngines = std::move(order);
+	for (const auto& engine : engines) {
+		const auto* kinematic = dynamic_cast<const PartialEngine*>(engine.get());
+		if (!kinematic || engine->dead || !isKinematic(engine->getClassName())) continue;
+		const unsigned needed = analysis == "3d" ? 7 : 3;
+		for (const int id : kinematic->ids) {
+			const Body* body = id >= 0 && std::size_t(id) < scene->bodies->size() ? (*scene->bodies)[id].get() : nullptr;
+			if (!body || !dynamic_cast<const MpmState*>(body->state.get()) || (body->state->blockedDOFs & needed) == needed) continue;
+			m_checkedEngines.clear();
+			refuse("O.bodies[" + std::to_string(id) + "].state", "blockedDOFs", body->state->blockedDOFs,
+				engine->getClassName() + " moves this material point, whose motion is not prescribed: set blockedDOFs = 'xyz' (in a plane analysis 'xy')");
+		}
+	}
+}
+
+/* A motion that is prescribed for every point leaves nothing to solve. */
+void MpmEngine::checkPrescribed() const
+{
+	const auto& fixed = m_points->points.fixed;
+	const auto  all   = std::uint8_t((1 << m_points->points.advance.size()) - 1);
+	if (fixed.empty() || !std::all_of(fixed.begin(), fixed.end(), [all](std::uint8_t bits) { return (bits & all) == all; })) return;
+	refuse("O.bodies", "blockedDOFs", "all translations of all material points", "the motion of every point is prescribed; leave some of them free");
 }
 
 /* Whether a TimeStepper sets O.dt as well. MpmEngine and NewtonIntegrator must move grains and points by the same step: else

@@ -94,6 +94,7 @@ private:
 	void                         checkGimp() const;
 	void                         checkEngineOrder();
 	void                         planFilter(mpm::StepControl& control);
+	void                         checkPrescribed() const;
 	bool                         checkClocks() const;
 	bool                         stiffnessChanged(const mpm::StepControl& control);
 	void                         checkStep(const mpm::StepControl& control, bool stepper);

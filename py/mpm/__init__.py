@@ -20,13 +20,14 @@ import yade.wrapper
 
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
+from .contact import reaction, wall
 from .driver import PointHistory, drive
 from .points import array, criticalTimeStep, fill
 from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
+__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'reaction', 'readStl', 'wall']
 
 
 def __dir__(): return __all__
