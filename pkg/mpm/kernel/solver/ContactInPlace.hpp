@@ -8,6 +8,7 @@
 #include "PointChecks.hpp"
 #include "PointShares.hpp"
 #include "Solver.hpp"
+#include "TileReport.hpp"
 
 namespace yade::mpm {
 
@@ -87,26 +88,44 @@ public:
 				change[a] = side.sign * (change[a] - m_before[side.contact][a]);
 			Shares::addForce(tiles[side.tile], d.transfer.weights(tiles[side.tile], side.point), side.lever, change, *raw);
 		}
-		auto& memory = d.transfer.points.contactForces;
-		memory.clear();
 		for (const Contact<dim>& c : m_impulses.contacts) {
-			SurfaceForce kept { c.point, c.other, {}, {} };
-			bool         acts = false;
-			for (std::size_t a = 0; a < dim; ++a)
-				kept.force[a] = c.impulse[a] / control.dt, kept.slip[a] = c.slip[a], acts = acts || c.impulse[a] != 0;
-			if (!acts) continue;
-			memory.push_back(kept);
 			if (c.other < 0) continue;
 			Wall& wall = walls[std::size_t(c.other)];
-			V3    arm {};
+			V3    arm {}, force {};
 			for (std::size_t a = 0; a < dim; ++a)
-				arm[a] = c.place[a] - wall.origin[a], wall.force[a] -= kept.force[a];
-			const V3 moment = cross(arm, kept.force);
+				arm[a] = c.place[a] - wall.origin[a], force[a] = c.impulse[a] / control.dt, wall.force[a] -= force[a];
+			const V3 moment = cross(arm, force);
 			for (std::size_t a = 0; a < 3; ++a)
 				wall.torque[a] -= moment[a];
 		}
-		std::sort(memory.begin(), memory.end());
 		m_fresh = false;
+	}
+	/* Points that take an impulse move with the velocities that strain the material, as points in contact with bodies of YADE do
+	(ContactPoints.hpp): any other motion of the surface would give or take energy of the contact's springs. */
+	void move(D& d, double dt, std::vector<TileReport>& reports)
+	{
+		m_impulses.advanceSlips(d.fields.velocity, dt);
+		remember(d.transfer.points, dt);
+		Points&            P    = d.transfer.points;
+		const auto&        g    = d.transfer.geometry;
+		std::size_t        read = nowhere;
+		typename D::Values v[dim];
+		for (const Side& side : m_sides) {
+			const V& impulse = m_impulses.contacts[side.contact].impulse;
+			if (std::all_of(impulse.begin(), impulse.end(), [](double x) { return x == 0; })) continue;
+			const auto& tile = d.transfer.grid.tiles()[side.tile];
+			for (int a = 0; a < dim && side.tile != read; ++a)
+				D::Patch::read(tile, d.fields.velocity[a], v[a]);
+			read         = side.tile;
+			const auto w = d.transfer.weights(tile, side.point);
+			for (std::size_t a = 0; a < dim; ++a) {
+				if (!P.fixed.empty() && P.fixed[side.point] >> a & 1) continue;
+				P.advance[a][side.point] = dt * w.gather(v[a]);
+				const double xi          = g.xi(int(a), P.position[a][side.point] + P.advance[a][side.point]);
+				const double inTile      = xi - D::Shape::shift(d.transfer.halfSize(int(a), side.point)) - tile.index[a] * D::T::Grid::width;
+				reports[side.tile].left |= !(inTile >= 0 && inTile < D::T::Grid::width && xi >= g.xiMin[a] && xi <= g.xiMax[a]);
+			}
+		}
 	}
 
 private:
@@ -121,8 +140,21 @@ private:
 	std::vector<V>           m_before; // impulses of the last step
 	std::vector<std::size_t> m_order; // walls
 
-	static constexpr double stiffness = .5;
+	static constexpr double stiffness = .25;
 
+	/* Keeps force and slip of the contacts that act. */
+	void remember(Points& P, double dt) const
+	{
+		P.contactForces.clear();
+		for (const Contact<dim>& c : m_impulses.contacts) {
+			SurfaceForce kept { c.point, c.other, {}, {} };
+			bool         acts = false;
+			for (std::size_t a = 0; a < dim; ++a)
+				kept.force[a] = c.impulse[a] / dt, kept.slip[a] = c.slip[a], acts = acts || c.impulse[a] != 0;
+			if (acts) P.contactForces.push_back(kept);
+		}
+		std::sort(P.contactForces.begin(), P.contactForces.end());
+	}
 	static V3 cross(const V3& a, const V3& b) { return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] }; }
 
 	/* The part of a wall that lies nearest to x: its place, the direction from it to x, and whether x is beside the wall's extent. */
@@ -234,11 +266,11 @@ private:
 		m_impulses.contacts.push_back(c);
 	}
 	static double largestCell(const D& d) { return *std::max_element(d.transfer.geometry.cell.begin(), d.transfer.geometry.cell.end()); }
-	/* 1/(k dt^2) of a point. */
+	/* 2/(k dt^2) of a point. */
 	static double softness(const Points& P, const std::vector<Law>& laws, double dt, std::size_t p)
 	{
 		const Law& law = laws[std::size_t(P.material[p])];
-		return P.size[p] * P.size[p] / (2 * stiffness * law.elastic.young * P.volume0[p] * dt * dt);
+		return P.size[p] * P.size[p] / (stiffness * law.elastic.young * P.volume0[p] * dt * dt);
 	}
 
 	// ---- points of other groups ------------------------------------------------------------------------------------------
