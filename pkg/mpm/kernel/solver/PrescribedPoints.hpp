@@ -9,8 +9,9 @@ namespace yade::mpm {
 /* Points whose motion is prescribed prescribe it to the material: impulses lambda_p at the points, m_i dv_i = sum N_ip lambda_p,
 make sum N_ip v_i the prescribed velocity of every such point, at the update of the nodes and again for the velocities that
 strain the points. It is the projection that changes the nodes' kinetic energy least; its equations N M^-1 N^T lambda = w - N v
-are solved by conjugate gradients, component by component. They may be singular (more points than nodes) and have a solution
-nevertheless where the prescribed velocities are ones that the grid has. -lambda/dt of the update is the reaction. */
+are solved by conjugate gradients, component by component. They may be singular (more points than nodes). A softness of a
+hundredth of each point's response bounds the impulses in directions that the grid hardly has; since the impulses of the last
+step are kept, it delays equality by some steps and leaves no error at rest. -lambda/dt of the update is the reaction. */
 template <class D> class PrescribedPoints {
 	static constexpr int dim = D::dim;
 	using V                  = std::array<double, dim>;
@@ -125,7 +126,7 @@ private:
 	void solve(D& d, NodeVector<dim>& velocity)
 	{
 		constexpr int    most      = 200;
-		constexpr double tolerance = 1e-12;
+		constexpr double tolerance = 1e-12, softness = 1e-2; // beside the response of a point
 		const Points&    P         = d.transfer.points;
 		for (Field& field : m_scratch)
 			field.resize(d.fields.mass.size());
@@ -156,8 +157,10 @@ private:
 				auto range  = held.range;
 				range.still = {};
 				held.image  = m_shares.velocity(range, m_scratch);
-				for (std::size_t a = 0; a < dim; ++a)
+				for (std::size_t a = 0; a < dim; ++a) {
+					held.image[a] += softness * held.range.response[a] * held.direction[a];
 					if (isHeld(d, held, a)) product[a] += held.direction[a] * held.image[a];
+				}
 			}
 			for (const Held& held : m_points)
 				for (std::size_t s = held.range.first; s < held.range.last; ++s)
