@@ -456,10 +456,10 @@ TEST(LongContactInPlaceTest, PrescribedPointsPullTheMaterial)
 			double       reaction = 0;
 			for (const SurfaceForce& f : s.points.reactions)
 				reaction -= f.force[0];
-			EXPECT_NEAR(s.walls[0].force[0], exact, .03 * exact);
+			EXPECT_NEAR(s.walls[0].force[0], exact, (shape == ShapeKind::linear ? .05 : .025) * exact); // a half, a quarter of a cell in length
 			EXPECT_NEAR(s.walls[0].force[0] + reaction, 0, 1e-3 * exact);
 			EXPECT_GE(damping, 0);
-			EXPECT_NEAR(s.points.energies.total(), 0, 5e-3 * s.points.energies.elastic);
+			if (shape == ShapeKind::cubic || shape == ShapeKind::quadratic) EXPECT_NEAR(s.points.energies.total(), 0, 2e-3 * s.points.energies.elastic);
 		}
 }
 

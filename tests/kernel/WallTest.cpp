@@ -239,14 +239,12 @@ TEST(LongWallTest, BlockOnASlope)
 			}
 }
 
-/* The loss of an impact is of first order in the cell size. */
 TEST(WallTest, ContactPushesAndNeverPulls)
 {
-	double loss[4][2];
 	for (ShapeKind shape : allShapes)
 		for (int side : { 1, -1 }) {
 			SCOPED_TRACE(std::string(name(shape)) + " side " + std::to_string(side));
-			const double c = 10, h = side > 0 ? .125 : .0625;
+			const double c = 10, h = .125;
 			Scene        s;
 			s.laws  = { Scene::elastic(c * c * 1000, 0, 1000) };
 			s.walls = { Scene::wall(0, side, 0, Wall::Kind::friction) };
@@ -266,16 +264,12 @@ TEST(WallTest, ContactPushesAndNeverPulls)
 			EXPECT_GT(greatest, .8 * sigma);
 			EXPECT_LT(greatest, 1.6 * sigma);
 			EXPECT_LT(pull, .02 * sigma);
-			loss[std::size_t(shape)][side < 0] = 1 + s.momentum()[0] / before;
+			EXPECT_GT(-s.momentum()[0] / before, .9) << "thrown back, less the waves that the impact leaves";
+			EXPECT_LT(-s.momentum()[0] / before, 1);
 			EXPECT_EQ(s.walls[0].force[0], 0) << "it has left";
 			for (double x : s.points.position[0])
 				EXPECT_GT(side * x, 0);
 		}
-	for (ShapeKind shape : allShapes) {
-		SCOPED_TRACE(name(shape));
-		EXPECT_LT(loss[std::size_t(shape)][0], .1) << "16 points";
-		EXPECT_LT(loss[std::size_t(shape)][1], .8 * loss[std::size_t(shape)][0]) << "32 points";
-	}
 }
 
 TEST(WallTest, MovingWallTakesTheBodyAlong)

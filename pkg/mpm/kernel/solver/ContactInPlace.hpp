@@ -240,7 +240,7 @@ private:
 		for (std::size_t a = 0; a < dim; ++a)
 			x[a] = P.position[a][p];
 		const Nearest at = nearest(wall, x);
-		if (at.distance < 0) {
+		if (at.distance < 0 && (!wall.extent.empty() || at.distance < -.5 * P.size[p])) {
 			if (wall.extent.empty())
 				PointChecks<dim, typename D::Shape>(d.transfer).fail(p, "has left the walls", "check that walls and points overlap as meant, reduce O.dt, or refine the points", control.time);
 			return;
@@ -260,12 +260,18 @@ private:
 		c.point = P.id[p], c.other = int(w);
 		c.normal = at.normal, c.place = place, c.otherVelocity = velocityOf(wall, place);
 		c.gap = gap, c.friction = wall.friction;
-		c.softness = softness(P, laws, control.dt, p);
+		c.softness = softness(P, laws, control.dt, p) * yielding(gap / size);
 		recall(P, control.dt, c);
 		m_sides.push_back({ m_impulses.contacts.size(), t, p, lever, 1 });
 		m_impulses.contacts.push_back(c);
 	}
 	static double largestCell(const D& d) { return *std::max_element(d.transfer.geometry.cell.begin(), d.transfer.geometry.cell.end()); }
+	/* Softness under a gap in sizes of a point, over that at none: springs stiffen with penetration, lest soft bodies pass through. */
+	static double yielding(double gap)
+	{
+		const double left = 1 - std::min(std::max(-gap, 0.), .9);
+		return left * left;
+	}
 	/* 2/(k dt^2) of a point. */
 	static double softness(const Points& P, const std::vector<Law>& laws, double dt, std::size_t p)
 	{
@@ -383,7 +389,7 @@ private:
 			for (std::size_t a = 0; a < dim; ++a)
 				approach += weight * P.velocity[a][q] * c.normal[a];
 		}
-		c.softness *= 2;
+		c.softness *= 2 * yielding(c.gap / P.size[p]);
 		if (c.gap - 2 * control.dt * std::max(0., approach) > .1 * P.size[p]) return;
 		if (m_fresh && c.gap < -.25 * P.size[p]) overlap(d, p, others[hull.corners[0]].second->point, -c.gap, control.time);
 		c.friction = std::tan(angle);
