@@ -46,6 +46,7 @@ namespace {
 	{
 		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
 	}
+	bool isAffine(const std::string& name) { return choose<bool>("transfer", name, { { "flip", false }, { "affine", true } }); }
 } // namespace
 
 void MpmEngine::action()
@@ -104,7 +105,7 @@ Real MpmEngine::criticalTimeStep()
 	const auto             lock    = attach();
 	const mpm::StepControl control = prepare();
 	readBodies();
-	return m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	return m_solver->criticalTimeStep(control.scheme, control.fullMass, control.affine);
 }
 
 /* Finds the scene's points and keeps Python's thread off them. */
@@ -158,6 +159,7 @@ mpm::StepControl MpmEngine::prepare()
 		control.gravity[d] = gravity[int(d)];
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
+	control.affine      = isAffine(transfer);
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
@@ -343,7 +345,7 @@ bool MpmEngine::checkClocks() const
 /* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()) };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(control.affine), Real(m_points->count()) };
 	for (const mpm::Law& law : m_points->runtime.laws)
 		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
 	if (now == acousticFor) return false;
@@ -356,7 +358,7 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
 	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
 	m_checkedStep    = 0;
-	const Real limit = m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	const Real limit = m_solver->criticalTimeStep(control.scheme, control.fullMass, control.affine);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
 			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; "
@@ -370,7 +372,8 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme, control.fullMass);
+	if (stiffnessChanged(control) || scene->iter % interval == 0) 
+		acousticLimit = m_solver->acousticTimeStep(control.scheme, control.fullMass, control.affine);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
@@ -451,6 +454,8 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 	const int* const ids       = points.id.data();
 	const auto*      materials = m_points->materials.data();
 
+	const bool rotates = !points.angularVelocity.empty();
+
 	bool erased   = false;
 	bool refused  = false;
 	Real offPlane = 0;
@@ -474,7 +479,7 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 		}
 		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
 		Real       gone   = 0;
-		if (before || points.energies.started) takeVelocity(p, before, velocity);
+		if (before || rotates || points.energies.started) takeVelocity(p, before, state);
 		for (int d = 0; d < dim; ++d) {
 			f[d][p] = force[d];
 			if (!before) v[d][p] = velocity[d];
@@ -502,16 +507,23 @@ template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
 	return erased;
 }
 
-/* What a script has changed of the velocity that a body shows is changed of its own, and what it gives in kinetic energy is external work. */
-void MpmEngine::takeVelocity(std::size_t p, bool touched, const Vector3r& shown)
+/* What a script has changed of the velocity that a body shows is changed of its own, and what it gives in kinetic energy is external work. The
+solver finds the rotation of a free point that has been given another velocity. */
+void MpmEngine::takeVelocity(std::size_t p, bool touched, const State& state)
 {
-	mpm::Points& points = m_points->points;
+	mpm::Points&    points  = m_points->points;
+	const Vector3r& shown   = state.vel;
+	bool            changed = false;
 	for (std::size_t d = 0; d < points.force.size(); ++d) {
 		Real&      v   = points.velocity[d][p];
 		const Real old = v;
 		v              = touched ? old + (shown[int(d)] - points.moving[d][p]) : shown[int(d)];
 		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
+		changed |= v != old;
 	}
+	if (!changed || points.angularVelocity.empty() || (state.blockedDOFs & 7)) return;
+	points.spinUnknown.resize(points.count(), 0);
+	points.spinUnknown[p] = 1;
 }
 
 /* Complains of the first body whose force, position or velocity cannot be. */

@@ -29,6 +29,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
+	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("spinUnknown", points.spinUnknown);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 } // namespace boost::serialization
@@ -96,6 +97,9 @@ public:
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
 	::boost::python::object array(const std::string& name);
 
+	/* For py/mpm: angular momentum of all points about a place [kg m2/s]. */
+	Vector3r angularMomentum(const Vector3r& about);
+
 	void preSave(MpmPoints&);
 	void postLoad(MpmPoints&);
 
@@ -112,6 +116,7 @@ public:
 		,/*ctor*/,
 		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` calls it.")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
+		.def("angularMomentum", &MpmPoints::angularMomentum, "Angular momentum of all points about a place [kg m2/s]; :yref:`mpm.angularMomentum` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
 		.def("__len__", &MpmPoints::count)

@@ -21,12 +21,12 @@ import yade.wrapper
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
 from .driver import PointHistory, drive
-from .points import array, criticalTimeStep, fill
+from .points import angularMomentum, array, criticalTimeStep, fill
 from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
+__all__ = ['PointHistory', 'angularMomentum', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'readStl']
 
 
 def __dir__(): return __all__
