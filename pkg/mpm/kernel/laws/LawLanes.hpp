@@ -11,6 +11,7 @@ namespace yade::mpm {
 internal tensors turn with the material, before the law. */
 template <class S> struct LawBlock {
 	Lanes            G[gradients<S>], F[S::dim * S::dim], sigma[S::N], internal[Internals::most(S::N)];
+	bool             turnToEnd = false; // strain increments to the axes of the end of the step, Kinematics.hpp
 	bool             respond = false; // whether somebody asks for
 	Responses<lanes> response;
 };

@@ -15,7 +15,7 @@ namespace yade::mpm {
 displacement increment. Points of a block that share a law are updated at once, others one by one.
 
 With the affine transfer a point moves with the velocities that strain it, x_p += dt sum N_ip v_i, since only then F and x go on
-agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate |w|: while the lattice turns
+agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 4 |w|: while the lattice turns
 over the grid by an angle, W_p forgets what the grid does not see of it. A motion without spin keeps W_p. */
 template <class D> struct StressUpdate {
 	using S                    = typename D::S;
@@ -122,11 +122,12 @@ private:
 		}
 		return inside;
 	}
-	/* W += theta/(1 + theta) (w - W), theta = dt |w| the angle of the step. */
+	/* W += b (w - W), b = 4 theta/(1 + 4 theta), theta = dt |w| the angle of the step. */
 	void relaxRotation(std::size_t t, Block block, const WeightLanes<dim, Shape>& w, const Lanes (&G)[gradients<S>])
 	{
 		Points&      P    = points();
-		const double rate = 1 / control.dt;
+		constexpr double rate = 4; // a body that spins with less of it shakes, with more it loses spin: doc/method.md
+		const double     perSecond = 1 / control.dt;
 		Lanes        turn[turns<dim>], W[turns<dim>], part;
 		for (int k = 0; k < turns<dim>; ++k) {
 			const int from = turnsFrom<dim>(k), to = turnsTo<dim>(k);
@@ -138,17 +139,17 @@ private:
 			for (int k = 0; k < turns<dim>; ++k)
 				square += turn[k][l] * turn[k][l];
 			const double theta = std::sqrt(square);
-			part[l]            = theta / (1 + theta);
+			part[l]            = rate * theta / (1 + rate * theta);
 		});
 		for (int l = 0; energies && l < block.count; ++l) {
 			const Arms<dim, Shape> arms(w[l], d.transfer.geometry.cell);
 			for (int k = 0; k < turns<dim>; ++k) {
-				const double old = W[k][l], now = old + part[l] * (rate * turn[k][l] - old);
+				const double old = W[k][l], now = old + part[l] * (perSecond * turn[k][l] - old);
 				energies[t].damping += .5 * P.mass[block.first + std::size_t(l)] * arms.inertia(k) * (old * old - now * now);
 			}
 		}
 		for (int k = 0; k < turns<dim>; ++k) {
-			forLanes([&](int l) { W[k][l] += part[l] * (rate * turn[k][l] - W[k][l]); });
+			forLanes([&](int l) { W[k][l] += part[l] * (perSecond * turn[k][l] - W[k][l]); });
 			store(W[k], block, P.angularVelocity[std::size_t(k)]);
 		}
 	}
@@ -199,7 +200,8 @@ private:
 		const int   columns  = Internals::of(law).columns(N);
 		const bool  thinning = std::is_same_v<S, PlaneStress> && control.thinning, tracksNormal = !P.freeStrain.empty();
 		LawBlock<S> b;
-		b.respond = thinning || tracksNormal;
+		b.respond   = thinning || tracksNormal;
+		b.turnToEnd = rotates(d);
 		std::copy(G, G + gradients<S>, b.G);
 		for (int k = 0; k < N; ++k)
 			load(P.stress[std::size_t(k)], block, b.sigma[k]);
@@ -283,6 +285,7 @@ private:
 		Increment<S> increment;
 		if (control.largeStrain) {
 			increment.large(G);
+			if (rotates(d)) increment.turnToEnd();
 			increment.rotate(sigma);
 			for (int k = 0; k < layout.tensors; ++k)
 				increment.rotate(internal + k * N);
