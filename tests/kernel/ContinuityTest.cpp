@@ -153,9 +153,7 @@ Scene disks(double h)
 /* V5: disks that touch and part again were never neighbours. */
 TEST(ContinuityTest, BodiesPartAgain)
 {
-	Watched w;
-	w.h     = .05;
-	w.scene = disks(w.h);
+	Watched w { disks(.05), .05, {} };
 	w.scene.start(Analysis::planeStrain, ShapeKind::cubic, w.h);
 	EXPECT_LT(w.run(3500, 50), .05);
 }
