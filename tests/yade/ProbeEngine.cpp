@@ -42,6 +42,7 @@ namespace {
 #		cls "." #                name, access(&cls::name)                                                                                             \
 	}
 
+	// clang-format off: tables; and clang-format 14 joins two words of a declaration in them
 	const std::map<std::string, Access>& table()
 	{
 		static const std::map<std::string, Access> accesses = {
@@ -215,6 +216,7 @@ namespace {
 		};
 		return accesses;
 	}
+	// clang-format on
 
 	const Access& find(const std::string& name)
 	{

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "Continuity.hpp"
+#include "Text.hpp"
 #include "solver/Solver.hpp"
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -35,7 +36,7 @@ namespace {
 	std::string text(const Points& points, std::size_t p)
 	{
 		const Eigen::Vector3d x = positionOf(points, p);
-		return "(" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) + ") m";
+		return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ") m";
 	}
 } // namespace
 
@@ -46,8 +47,8 @@ void Continuity::check(const Points& points, const std::vector<Law>& laws, const
 	const bool wall = gap.q == nowhere;
 	throw StepFailure("material point " + std::to_string(points.id[gap.p]) + " and "
 				  + (wall ? "the fixed wall beside it" : "its neighbour " + std::to_string(points.id[gap.q])) + " have come apart at time "
-				  + std::to_string(time) + " s, position " + text(points, gap.p) + (wall ? "" : " and " + text(points, gap.q)) + ": they are "
-				  + std::to_string(gap.distance) + " m from each other, " + std::to_string(gap.opening / cellSize)
+				  + number(time) + " s, position " + text(points, gap.p) + (wall ? "" : " and " + text(points, gap.q)) + ": they are "
+				  + number(gap.distance) + " m from each other, " + number(gap.opening / cellSize)
 				  + " cells more than the deformation of the material between them accounts for. This is numerical fracture: points so far "
 				    "apart share no "
 				    "node. Use larger cells for the same points, shape='cubic', or less load; where the body is meant to come apart, set "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "../Text.hpp"
 #include "../Traction.hpp"
 #include "NodeFields.hpp"
 #include "Solver.hpp"
@@ -141,8 +142,8 @@ private:
 	{
 		std::string where;
 		for (std::size_t a = 0; a < std::size_t(dim); ++a)
-			where += (a ? ", " : "") + std::to_string(face.position[a][k]);
-		throw StepFailure("point " + std::to_string(k) + " of traction " + std::to_string(f) + " " + what + " at time " + std::to_string(time)
+			where += (a ? ", " : "") + number(face.position[a][k]);
+		throw StepFailure("point " + std::to_string(k) + " of traction " + std::to_string(f) + " " + what + " at time " + number(time)
 					  + " s, position (" + where + ") m: place the face on the surface of the material points, or reduce O.dt or the load",
 			-1);
 	}

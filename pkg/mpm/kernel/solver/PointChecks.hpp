@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "../Text.hpp"
 #include "NodeFields.hpp"
 #include "Solver.hpp"
-#include <cstdio>
 
 namespace yade::mpm {
 
@@ -53,12 +53,6 @@ private:
 	{
 		const Points& P = m_transfer.points;
 		return P.position[std::size_t(d)][p] + (P.advance.empty() ? 0 : P.advance[std::size_t(d)][p]);
-	}
-	static std::string number(double x)
-	{
-		char text[32];
-		std::snprintf(text, sizeof text, "%.6g", x);
-		return text;
 	}
 };
 
