@@ -8,13 +8,12 @@ namespace {
 	Real hardeningModulus(const std::string& name, Real young, Real tangentRatio)
 	{
 		require(tangentRatio >= 0 && tangentRatio < 1, name, "tangentRatio", tangentRatio, "give E_t/E in [0, 1), e.g. 0.05 for 5 % hardening");
-		return mpm::BoucWenParameters::hardeningModulus(young, tangentRatio);
+		return mpm::hardeningModulus(young, tangentRatio);
 	}
 
-	mpm::BoucWenParameters parametersOf(const BoucWenMat& m, const std::string& name, const mpm::Hooke& elastic)
+	mpm::BoucWen modelOf(const BoucWenMat& m, const std::string& name)
 	{
-		mpm::BoucWenParameters law;
-		law.elastic     = elastic;
+		mpm::BoucWen law;
 		law.yieldStress = m.yieldStress;
 		law.n           = m.n;
 		law.beta        = m.beta;
@@ -31,9 +30,27 @@ namespace {
 		law.pinchingWidth        = m.pinchingWidth;
 		law.reloading            = m.reloading;
 		if (m.loadingRule == "paper")
-			law.loadingRule = mpm::BoucWenParameters::LoadingRule::paper;
+			law.loadingRule = mpm::BoucWen::LoadingRule::paper;
 		else if (m.loadingRule != "normal")
 			refuse(name, "loadingRule", "'" + m.loadingRule + "'", "choose 'normal', or 'paper' for comparison");
+		return law;
+	}
+
+	mpm::J2 modelOf(const J2Mat& m, const std::string& name)
+	{
+		mpm::J2 law;
+		law.yieldStress = m.yieldStress;
+		law.hardening   = hardeningModulus(name, m.young, m.tangentRatio);
+		law.isotropic   = { m.isotropicModulus, m.saturationStress, m.saturationRate };
+		return law;
+	}
+
+	mpm::DruckerPrager modelOf(const DruckerPragerMat& m)
+	{
+		mpm::DruckerPrager law;
+		law.cohesion         = m.cohesion;
+		law.internalFriction = m.internalFriction;
+		law.dilatancy        = m.dilatancy;
 		return law;
 	}
 
@@ -58,17 +75,12 @@ mpm::Law lawOf(const Material& material)
 	require(elastic->density > 0 && std::isfinite(elastic->density), name, "density", elastic->density, "give a density > 0 [kg/m3]");
 	law.density = elastic->density;
 	law.elastic = mpm::Hooke(elastic->young, elastic->poisson);
-	if (const auto* boucWen = dynamic_cast<const BoucWenMat*>(&material)) {
-		law.kind    = mpm::Law::Kind::boucWen;
-		law.boucWen = parametersOf(*boucWen, name, law.elastic);
-	} else if (const auto* j2 = dynamic_cast<const J2Mat*>(&material)) {
-		law.kind = mpm::Law::Kind::j2;
-		law.j2   = { law.elastic, j2->yieldStress, hardeningModulus(name, j2->young, j2->tangentRatio),
-			  { j2->isotropicModulus, j2->saturationStress, j2->saturationRate } };
-	} else if (const auto* cone = dynamic_cast<const DruckerPragerMat*>(&material)) {
-		law.kind          = mpm::Law::Kind::druckerPrager;
-		law.druckerPrager = { law.elastic, cone->cohesion, cone->internalFriction, cone->dilatancy };
-	}
+	if (const auto* boucWen = dynamic_cast<const BoucWenMat*>(&material))
+		law.model = modelOf(*boucWen, name);
+	else if (const auto* j2 = dynamic_cast<const J2Mat*>(&material))
+		law.model = modelOf(*j2, name);
+	else if (const auto* cone = dynamic_cast<const DruckerPragerMat*>(&material))
+		law.model = modelOf(*cone);
 	if (const std::string fault = mpm::validate(law); !fault.empty()) throw std::runtime_error(name + "." + fault);
 	return law;
 }

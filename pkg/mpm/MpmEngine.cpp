@@ -3,22 +3,19 @@
 #include "Action.hpp"
 #include "BadInput.hpp"
 #include "Materials.hpp"
-#include "MpmState.hpp"
+#include "kernel/LoadedColumns.hpp"
+#include "kernel/Text.hpp"
 #include <algorithm>
-#include <core/BodyContainer.hpp>
-#include <core/Bound.hpp>
+#include <atomic>
 #include <core/EnergyTracker.hpp>
-#include <core/ForceContainer.hpp>
-#include <core/Interaction.hpp>
 #include <core/Omega.hpp>
-#include <core/PartialEngine.hpp>
-#include <core/TimeStepper.hpp>
 #include <omp.h>
 
 namespace yade {
 
 namespace {
-	const char* const self = "MpmEngine";
+	const char* const self                = "MpmEngine";
+	constexpr long    longestLookInterval = 1000; // steps between two looks at the gaps
 
 	template <class Value> Value choose(const char* attribute, const std::string& given, std::initializer_list<std::pair<const char*, Value>> choices)
 	{
@@ -65,18 +62,21 @@ void MpmEngine::step()
 	} clock(*timingDeltas);
 
 	timingDeltas->start();
-	const auto       lock    = attach();
-	mpm::StepControl control = prepare();
+	const Attached   attached = attach();
+	mpm::StepControl control  = prepare();
 	if (m_points->count() == 0) return;
 	readBodies();
 	if (m_points->count() == 0) return; // the last ones have been erased
-	const bool stepper = checkClocks();
+	checkValues();
+	const bool stepper = m_order.checkClocks(timeStepSafety > 0);
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
 	planFilter(control);
 	if (TimingInfo::enabled) control.clock = &clock, clock.lap("bodies to points");
-	m_solver->step(control);
-	writeBodies();
+	m_points->runtime.failed = true; // unless it comes to its end
+	m_points->runtime.solver->step(control);
+	m_points->runtime.failed = false;
+	if (m_bodies > 0) links().write(*scene, m_points->points);
 	if (control.trackEnergy) reportEnergies();
 	if (TimingInfo::enabled) clock.lap("points to bodies");
 	wallsLeft.resize(walls.size());
@@ -100,19 +100,35 @@ void MpmEngine::reportEnergies() const
 
 Real MpmEngine::criticalTimeStep()
 {
-	scene                          = Omega::instance().getScene().get(); // the loop sets it before a step, and there may have been none
-	const auto             lock    = attach();
-	const mpm::StepControl control = prepare();
+	scene                           = Omega::instance().getScene().get(); // the loop sets it before a step, and there may have been none
+	const Attached         attached = attach();
+	const mpm::StepControl control  = prepare();
 	readBodies();
-	return m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	checkValues();
+	return m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
 }
 
-/* Finds the scene's points and keeps Python's thread off them. */
-std::unique_lock<std::mutex> MpmEngine::attach()
+std::size_t MpmEngine::gridBytes() const
 {
-	m_points = MpmPoints::of(*scene);
-	if (!m_points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
-	return std::unique_lock<std::mutex>(m_points->mutex);
+	const shared_ptr<MpmPoints> points = MpmPoints::of(*Omega::instance().getScene());
+	return points && points->runtime.solver ? points->runtime.solver->gridBytes() : 0;
+}
+
+/* Finds the scene's points and keeps Python's thread off them. They are the scene's: the engine keeps them for no longer than a step. */
+MpmEngine::Attached MpmEngine::attach()
+{
+	shared_ptr<MpmPoints> points = MpmPoints::of(*scene);
+	if (!points) throw std::runtime_error("MpmEngine: the scene has no material points; make them with mpm.fill() before the first step");
+	m_points = points.get();
+	return { points, std::unique_lock<std::mutex>(points->mutex) };
+}
+
+void MpmEngine::postLoad(MpmEngine&)
+{
+	std::string fault;
+	if (!(untilLook >= 0 && untilLook <= lookInterval && lookInterval <= longestLookInterval))
+		fault = "untilLook = " + std::to_string(untilLook) + " with lookInterval = " + std::to_string(lookInterval) + " cannot be";
+	if (!fault.empty()) throw std::runtime_error("MpmEngine." + fault + ": the saved scene is damaged; load another copy of it");
 }
 
 // ---- what the scene says ------------------------------------------------------------------------------------------------
@@ -141,14 +157,19 @@ mpm::StepControl MpmEngine::prepare()
 	require(!fullMass || scheme == "MUSL", self, "fullMass", fullMass, "only MUSL has a step for the full mass; set scheme = 'MUSL' or fullMass = False");
 	require(filterTime >= 0, self, "filterTime", filterTime, "give a time > 0 [s], e.g. some periods of the slowest vibration, or 0 for no filter");
 
-	if (m_checkedEngines.size() != scene->engines.size()
-		|| !std::equal(m_checkedEngines.begin(), m_checkedEngines.end(), scene->engines.begin(),
-			[](const Checked& a, const shared_ptr<Engine>& b) { return a.engine == b.get() && a.dead == b->dead; }))
-		checkEngineOrder();
-	if (m_points->large != largeStrain || m_points->points.thicknessStretch.empty() == stretches(analysisKind)) m_points->finish();
-	m_points->large = largeStrain;
+	constexpr int fewest = 64;
+	const int     most   = std::max(fewest, 4 * omp_get_num_procs());
+	require(ompThreads <= most, self, "ompThreads", ompThreads,
+		"give at most " + std::to_string(most) + " threads, one a core of the processor is best; -1 takes the number of -j");
+	require(scene->subdomain == 0, "O", "subdomain", scene->subdomain,
+		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
+
+	m_order.check(scene->engines, *this);
+	checkKinematics(analysisKind);
 	if (!scene->trackEnergy) m_points->points.energies.started = false;
 	m_points->updateLaws();
+	if (m_order.hasContacts()) m_points->requireContactLaw();
+	if (m_points->updateMasses()) forgetStep();
 	prepareWalls(dim, analysisKind == mpm::Analysis::axisymmetric);
 	prepareSolver();
 
@@ -164,9 +185,28 @@ mpm::StepControl MpmEngine::prepare()
 	return control;
 }
 
+/* Strain of points that have been deformed means something else after these switches: volumes would jump. */
+void MpmEngine::checkKinematics(mpm::Analysis kind)
+{
+	mpm::Points& points = m_points->points;
+	const bool   other = m_points->large != largeStrain, ends = !points.thicknessStretch.empty() && !stretches(kind);
+	if (!other && points.thicknessStretch.empty() != stretches(kind)) return;
+	m_points->finish();
+	const auto differs = [](const mpm::Column& column, double from) {
+		return std::any_of(column.begin(), column.end(), [=](double x) { return x != from; });
+	};
+	bool deformed = false;
+	for (std::size_t k = 0, n = points.deformation.size(), row = n == 9 ? 4 : 3; other && k < n; ++k)
+		deformed = deformed || differs(points.deformation[k], k % row == 0 ? 1 : 0);
+	require(!deformed, self, "largeStrain", largeStrain, "the points have been deformed with the other setting; choose it before the first step");
+	require(!ends || !differs(points.thicknessStretch, 1), self, "thinning", thinning,
+		"the thickness of the points has changed already, and would jump back; choose it before the first step");
+	m_points->large = largeStrain;
+}
+
 void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 {
-	std::vector<mpm::Wall>& kernelWalls = m_points->runtime.walls;
+	std::vector<mpm::Wall> kernelWalls = m_points->runtime.walls; // replaced only when all walls have been accepted
 	kernelWalls.resize(walls.size());
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		if (!walls[w]) refuse(self, "walls[" + std::to_string(w) + "]", "None", "give an MpmWall");
@@ -180,19 +220,20 @@ void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
-	if (!axisymmetric) return;
-	bool inner = false;
+	bool inner = !axisymmetric;
 	for (const mpm::Wall& wall : kernelWalls) {
-		if (wall.axis != 0) continue;
+		if (!axisymmetric || wall.axis != 0) continue;
 		inner = inner || wall.side > 0;
 		require(wall.position > 0 || (wall.position == 0 && wall.side > 0 && wall.kind == mpm::Wall::Kind::slip), self, "walls",
-			"a wall normal to x at x = " + std::to_string(wall.position),
+			"a wall normal to x at x = " + mpm::number(wall.position),
 			"in axisymmetry x is the radius and the axis is a plane of symmetry without a wall; place radial walls at x > 0");
 	}
-	if (inner) return;
-	mpm::Wall axis;
-	axis.kind = mpm::Wall::Kind::slip;
-	kernelWalls.push_back(axis);
+	if (!inner) {
+		mpm::Wall axis;
+		axis.kind = mpm::Wall::Kind::slip;
+		kernelWalls.push_back(axis);
+	}
+	m_points->runtime.walls = std::move(kernelWalls);
 }
 
 void MpmEngine::prepareSolver()
@@ -202,20 +243,21 @@ void MpmEngine::prepareSolver()
 	const auto          key          = std::make_tuple(analysis, shape, cellSize);
 	const std::size_t   columns      = std::size_t(mpm::stressComponents(analysisKind));
 	auto&               runtime      = m_points->runtime;
-	if (!m_solver || m_solver != runtime.solver.get() || key != m_solverFor) {
+	if (!runtime.solver || m_solver != runtime.solverNumber || key != m_solverFor) {
+		static std::atomic<long> solvers { 0 };
 		m_points->finish();
-		if (m_solver) acousticFor.clear(), continuity.forget(); // else it comes from a file, with what it knows of the points
 		require(points.stress.empty() || points.stress.size() == columns, self, "analysis", "'" + analysis + "'",
 			"the points already carry the stress of another analysis; make new points");
-		runtime.solver = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
-		m_solver       = runtime.solver.get();
-		m_solverFor    = key;
-		m_checkedCount = 0;
+		runtime.solver       = mpm::makeSolver(analysisKind, shapeOf(shape), cellSize, points, runtime.laws, runtime.walls);
+		runtime.solverNumber = m_solver = ++solvers;
+		m_solverFor                     = key;
+		m_checkedCount                  = 0;
 	}
 	if (points.count() != m_checkedCount || m_points->filled) {
 		checkPoints(analysisKind);
-		if (m_points->filled) continuity.forget(), acousticFor.clear(); // ids of erased bodies are given again
+		if (m_points->filled) m_points->continuity.forget(), forgetStep(); // ids of erased bodies are given again
 		m_checkedCount   = points.count();
+		m_valuesDue      = true;
 		m_points->filled = false;
 	}
 	if (shape == "gimp") checkGimp();
@@ -223,7 +265,7 @@ void MpmEngine::prepareSolver()
 	int  internals  = 0;
 	bool freeNormal = false;
 	for (const mpm::Law& law : runtime.laws) {
-		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !mpm::keepsVolume(law));
+		freeNormal = freeNormal || (analysisKind == mpm::Analysis::planeStress && !law.keepsVolume());
 		internals  = std::max(internals, mpm::Internals::of(law).columns(int(columns)));
 	}
 	m_bodies = std::size_t(std::count_if(points.id.begin(), points.id.end(), [](int id) { return id >= 0; }));
@@ -242,6 +284,7 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 	for (std::size_t p = 0; p < points.count(); ++p) {
 		const std::string name = "material point " + std::to_string(points.id[p]);
 		require(points.mass[p] > 0 && std::isfinite(points.mass[p]), name, "mass", points.mass[p], "give its material a density > 0 before mpm.fill()");
+		require(points.size[p] > 0 && std::isfinite(points.size[p]), name, "size", points.size[p], "give mpm.fill() a spacing > 0");
 		require(points.volume0[p] > 0 && std::isfinite(points.volume0[p]), name, "volume", points.volume0[p],
 			"give mpm.fill() a spacing > 0 and a thickness > 0");
 		if (kind == mpm::Analysis::axisymmetric) {
@@ -256,7 +299,7 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
 		if (dim == 2)
 			require(points.position[2][p] == 0 && points.velocity[2][p] == 0, name, "position[2], velocity[2]",
-				std::to_string(points.position[2][p]) + ", " + std::to_string(points.velocity[2][p]),
+				mpm::number(points.position[2][p]) + ", " + mpm::number(points.velocity[2][p]),
 				"in a plane analysis points lie at z = 0 and stay there");
 	}
 }
@@ -268,85 +311,35 @@ void MpmEngine::checkGimp() const
 	const double least = *std::min_element(cells.begin(), cells.end());
 	for (const double size : m_points->points.size)
 		require(size <= least * (1 + 1e-12), self, "cellSize", cellSize,
-			"GIMP needs cells at least as large as the points' spacing; between these walls they are " + std::to_string(least) + " m");
+			"GIMP needs cells at least as large as the points' spacing; between these walls they are " + mpm::number(least) + " m");
 }
 
-/* Forces that are applied after this engine and cleared before it runs again would be lost without a word. */
-void MpmEngine::checkEngineOrder()
+/* Numbers that come from a file and are not finite; bodies have been read already, so that a script may have put them right. */
+void MpmEngine::checkValues()
 {
-	const auto&          engines = scene->engines;
-	std::vector<Checked> order;
-	const std::size_t    n    = engines.size();
-	std::size_t          here = n;
-	for (std::size_t k = 0; k < n; ++k) {
-		const std::string name = engines[k]->getClassName();
-		const Role        role = engines[k].get() == this                             ? Role::self
-					 : dynamic_cast<const TimeStepper*>(engines[k].get()) ? Role::stepper
-					 : name == "NewtonIntegrator"                         ? Role::newton
-					 : name == "InteractionLoop"                          ? Role::loop
-											      : Role::other;
-		if (role == Role::self) here = k;
-		order.push_back({ engines[k].get(), engines[k]->dead, role });
-	}
-	if (here == n) return;    // asked for its time step outside O.engines
-	m_checkedEngines.clear(); // a bad order is complained of each time
-	for (const auto& engine : engines)
-		if (engine.get() != this && !engine->dead && engine->getClassName() == self)
-			throw std::runtime_error(
-				"O.engines has two MpmEngines, which would both move the same points; keep one, or set dead = True on the other");
-	for (std::size_t k = 0; k < n; ++k) {
-		const std::string name = engines[k]->getClassName();
-		const bool        partial =
-			dynamic_cast<PartialEngine*>(engines[k].get()) && (name.find("Force") != std::string::npos || name.find("Drag") != std::string::npos);
-		if (engines[k]->dead || (!partial && name != "InteractionLoop" && !Omega::instance().isInheritingFrom(name, "FieldApplier"))) continue;
-		for (std::size_t step = 1; step < n && (k + step) % n != here; ++step)
-			if (engines[(k + step) % n]->getClassName() == "ForceResetter" && !engines[(k + step) % n]->dead)
-				throw std::runtime_error("O.engines: the forces of " + name + " (place " + std::to_string(k)
-							 + ") are cleared by ForceResetter (place " + std::to_string((k + step) % n)
-							 + ") before MpmEngine (place " + std::to_string(here)
-							 + ") sees them; put ForceResetter first, then the engines that apply forces, then MpmEngine");
-	}
-	m_checkedEngines = std::move(order);
+	if (!m_valuesDue) return;
+	const std::string fault = mpm::nonFiniteValue(m_points->points);
+	if (!fault.empty()) throw std::runtime_error("MpmEngine: " + fault + ": the saved scene is damaged, or its last step has failed; load an earlier one");
+	m_valuesDue = false;
 }
 
-/* Whether a TimeStepper sets O.dt as well. MpmEngine and NewtonIntegrator must move grains and points by the same step: else
-what a contact gives the one is not what it takes from the other. */
-bool MpmEngine::checkClocks() const
+/* The stable step is another one than that which has been found. */
+void MpmEngine::forgetStep()
 {
-	const auto& engines = scene->engines;
-	long        here = -1, stepper = -1, newton = -1, loop = -1;
-	for (long k = 0; k < long(m_checkedEngines.size()); ++k) {
-		const Checked& checked = m_checkedEngines[std::size_t(k)];
-		if (checked.dead) continue;
-		switch (checked.role) {
-			case Role::self: here = k; break;
-			case Role::stepper: stepper = static_cast<const TimeStepper*>(checked.engine)->active ? k : stepper; break;
-			case Role::newton: newton = k; break;
-			case Role::loop: loop = k; break;
-			case Role::other: break;
-		}
-	}
-	if (here < 0) return false;
-	const auto between = [](long a, long b, long c) { return a >= 0 && c >= 0 && (b - a) * (b - c) < 0; };
-	if (timeStepSafety > 0 && newton >= 0 && newton < here)
-		throw std::runtime_error("O.engines: MpmEngine (place " + std::to_string(here) + ") sets O.dt (timeStepSafety), which NewtonIntegrator (place "
-					 + std::to_string(newton) + ") has used before; put MpmEngine before NewtonIntegrator");
-	if (stepper < 0) return false;
-	const std::string name = engines[std::size_t(stepper)]->getClassName() + " (place " + std::to_string(stepper) + ")";
-	if (between(here, stepper, newton))
-		throw std::runtime_error("O.engines: " + name + " changes O.dt between MpmEngine (place " + std::to_string(here)
-					 + ") and NewtonIntegrator (place " + std::to_string(newton) + "), which must take the same step; put it before both");
-	if (timeStepSafety > 0 && (stepper > here || between(stepper, loop, here)))
-		throw std::runtime_error("O.engines: contacts (InteractionLoop) would see the O.dt of " + name + ", which MpmEngine (place "
-					 + std::to_string(here) + ", timeStepSafety) shortens only later; put them in the order InteractionLoop, "
-					 + engines[std::size_t(stepper)]->getClassName() + ", MpmEngine, NewtonIntegrator");
-	return true;
+	acousticFor.clear();
+	checkedStep = 0;
 }
 
-/* Whether what the stable step depends on, but for the points' motion, is other than when it was last found. */
+/* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()) };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
+		cellSize };
+	const auto&       kernelWalls = m_points->runtime.walls;
+	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
+		now.push_back(std::round(20 * std::log(cell / cellSize))); // walls stretch cells; in steps of 5 %
+	for (const mpm::Wall& wall : kernelWalls)
+		now.insert(now.end(), { Real(wall.kind), Real(wall.axis), Real(wall.side) });
 	for (const mpm::Law& law : m_points->runtime.laws)
 		now.insert(now.end(), { law.elastic.young, law.elastic.poisson, law.density, law.stiffnessBound() });
 	if (now == acousticFor) return false;
@@ -357,24 +350,27 @@ bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 {
 	require(control.dt > 0 && std::isfinite(control.dt), "O", "dt", control.dt, "give a step > 0 [s], e.g. O.dt = .4*mpm.criticalTimeStep()");
-	if (!stiffnessChanged(control) && control.dt <= m_checkedStep) return;
-	m_checkedStep    = 0;
-	const Real limit = m_solver->criticalTimeStep(control.scheme, control.fullMass);
+	const bool changed = stiffnessChanged(control);
+	if (changed) acousticLimit = NaN; // for adaptStep(), which may be switched on later
+	if (!changed && control.dt <= checkedStep) return;
+	checkedStep      = 0;
+	const Real limit = m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
-			"the largest stable step of this scene is " + std::to_string(limit * 1e6) + "e-6 s; "
+			"the largest stable step of this scene is " + mpm::number(limit) + " s; "
 				+ (stepper ? "O.engines has a TimeStepper, which knows of contacts only; set MpmEngine.timeStepSafety = .4 to have the lesser "
 					     "of both"
 					   : "set O.dt = .4*mpm.criticalTimeStep()"));
-	m_checkedStep = control.dt;
+	checkedStep = control.dt;
 }
 
 /* O.dt for this step. The eigenvalue is worth many steps and changes slowly; velocities are followed at every step. */
 void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
-	if (stiffnessChanged(control) || scene->iter % interval == 0) acousticLimit = m_solver->acousticTimeStep(control.scheme, control.fullMass);
-	const Real step = timeStepSafety / (1 / acousticLimit + m_solver->crossingRate());
+	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0))
+		acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
+	const Real step = timeStepSafety / (1 / acousticLimit + m_points->runtime.solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
 
@@ -394,188 +390,55 @@ void MpmEngine::checkContinuity(const mpm::StepControl& control)
 {
 	if (largestGap == std::numeric_limits<Real>::infinity()) return;
 	const auto stands = [](const shared_ptr<MpmWall>& wall, const Vector3r& origin) { return wall->origin == origin; };
-	if (!std::equal(walls.begin(), walls.end(), wallsLeft.begin(), wallsLeft.end(), stands)) continuity.forget(); // put elsewhere by a script
+	if (!std::equal(walls.begin(), walls.end(), wallsLeft.begin(), wallsLeft.end(), stands)) m_points->continuity.forget(); // put elsewhere by a script
 	if (untilLook > 0) {
 		--untilLook;
 		return;
 	}
-	continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
-	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / (m_solver->crossingRate() * control.dt), 10., 1000.)));
+	m_points->finish(); // a scene that is loaded here has no stress update pending, and must see the same gaps
+	m_points->continuity.check(m_points->points, m_points->runtime.laws, m_points->runtime.walls, cellSize, largestGap * cellSize, control.time);
+	const Real crossing = m_points->runtime.solver->crossingRate() * control.dt;
+	untilLook = lookInterval = std::min(2 * lookInterval, long(std::clamp(.25 / crossing, 10., Real(longestLookInterval))));
 }
 
-// ---- bodies -------------------------------------------------------------------------------------------------------------
-
-/* Whether the point's body still is in O.bodies, looked up anew. */
-bool MpmEngine::link(std::size_t p)
+BodyLinks& MpmEngine::links()
 {
-	const auto  id     = std::size_t(m_points->points.id[p]);
-	const auto& bodies = scene->bodies->body;
-	m_links.resize(std::max(bodies.size(), id + 1));
-	m_links[id] = {};
-	if (!m_points->bodyOf(p, *scene->bodies)) return false;
-	m_links[id] = { bodies[id], bodies[id]->state };
-	return true;
+	auto& links = m_points->runtime.links;
+	if (!links) links = std::make_shared<BodyLinks>();
+	return *links;
 }
 
-/* What scripts and other engines have done to the points' bodies since the last step: forces, and state that differs from
-what this engine wrote. */
+/* Takes from the points' bodies what scripts and other engines have done since the last step. */
 void MpmEngine::readBodies()
 {
 	if (m_bodies == 0) return;
-	scene->forces.sync();
-	std::vector<std::size_t> moved;
-	const bool               erased = m_points->points.force.size() == 2 ? readStates<2>(moved) : readStates<3>(moved);
-	if (moved.empty() && !erased) return;
+	const BodyLinks::Changes changes = links().read(*scene, *m_points);
+	for (const std::size_t p : changes.otherMaterial) {
+		m_points->finish();
+		m_points->changeMaterial(p, links().body(m_points->points.id[p]).material);
+		m_points->continuity.forget(); // points of some laws are left out of its check
+		forgetStep();
+		prepareSolver();
+	}
+	for (const std::size_t p : changes.otherMass) {
+		const int  id   = m_points->points.id[p];
+		const Real mass = links().body(id).state->mass;
+		require(mass > 0 && std::isfinite(mass), "O.bodies[" + std::to_string(id) + "].state", "mass", mass, "give a material point a mass > 0 [kg]");
+		m_points->finish();
+		m_points->setMass(p, mass);
+		forgetStep();
+	}
+	if (changes.moved.empty() && !changes.erased) return;
 
 	mpm::Points& points = m_points->points;
 	m_points->finish();
-	for (const std::size_t p : moved)
+	for (const std::size_t p : changes.moved)
 		for (int d = 0; d < 3; ++d)
-			points.position[std::size_t(d)][p] = m_links[std::size_t(points.id[p])].state->pos[d];
-	if (erased) m_points->dropErased(*scene->bodies);
-	if (!moved.empty()) continuity.forget();
-	m_solver->pointsChanged();
-	checkPoints(analysisOf(analysis));
-}
-
-/* Fetches force, velocity, blockedDOFs, material and contact of every body. Notes the points whose positions are no longer
-theirs, and returns whether bodies have been erased. In a small scene this loop is what YADE costs: it complains of bad input
-after it has passed. */
-template <int dim> bool MpmEngine::readStates(std::vector<std::size_t>& moved)
-{
-	mpm::Points&      points = m_points->points;
-	const auto&       bodies = scene->bodies->body;
-	auto&             forces = scene->forces;
-	const std::size_t n      = points.count();
-	double *          f[dim], *v[dim];
-	const double *    x[dim], *u[dim];
-	for (std::size_t d = 0; d < dim; ++d)
-		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
-	const int* const ids       = points.id.data();
-	const auto*      materials = m_points->materials.data();
-
-	bool erased   = false;
-	bool refused  = false;
-	Real offPlane = 0;
-	for (std::size_t p = 0; p < n; ++p) {
-		if (ids[p] < 0) continue;
-		const auto id = std::size_t(ids[p]);
-		// what MpmPoints::bodyOf has once said holds as long as body and state stay
-		const Body* body   = id < m_links.size() && id < bodies.size() ? m_links[id].body.get() : nullptr;
-		const bool  linked = body && body == bodies[id].get() && body->state.get() == m_links[id].state.get();
-		if (!linked && !link(p)) {
-			erased = true;
-			continue;
-		}
-		body                  = m_links[id].body.get();
-		State&          state = *m_links[id].state.get();
-		const Vector3r &force = forces.getForce(ids[p]), &position = state.se3.position, &velocity = state.vel;
-		const Real      sum = force[0] + force[1] + force[2] + position[0] + position[1] + position[2] + velocity[0] + velocity[1] + velocity[2];
-		if (!(sum - sum == 0)) {
-			refused = true;
-			continue;
-		}
-		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
-		Real       gone   = 0;
-		if (before || points.energies.started) takeVelocity(p, before, velocity);
-		for (int d = 0; d < dim; ++d) {
-			f[d][p] = force[d];
-			if (!before) v[d][p] = velocity[d];
-			gone += std::abs(position[d] - (x[d][p] + u[d][p]));
-		}
-		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
-		if (gone != 0) moved.push_back(p);
-		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
-			points.fixed.resize(n, 0);
-			points.fixed[p] = fixed;
-		}
-		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
-		const auto real    = [](const auto& i) { return i.second->geom && i.second->phys; };
-		const bool touched = !body->intrs.empty() && std::any_of(body->intrs.begin(), body->intrs.end(), real);
-		if (touched || before) readContact(p, touched, state);
-		if (body->material.get() != materials[points.material[p]].get()) {
-			m_points->finish();
-			m_points->changeMaterial(p, body->material);
-			continuity.forget(); // of some laws points are left out
-			prepareSolver();
-			materials = m_points->materials.data();
-		}
-	}
-	if (offPlane != 0 || refused) refuseStates(dim);
-	return erased;
-}
-
-/* What a script has changed of the velocity that a body shows is changed of its own, and what it gives in kinetic energy is external work. */
-void MpmEngine::takeVelocity(std::size_t p, bool touched, const Vector3r& shown)
-{
-	mpm::Points& points = m_points->points;
-	for (std::size_t d = 0; d < points.force.size(); ++d) {
-		Real&      v   = points.velocity[d][p];
-		const Real old = v;
-		v              = touched ? old + (shown[int(d)] - points.moving[d][p]) : shown[int(d)];
-		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
-	}
-}
-
-/* Complains of the first body whose force, position or velocity cannot be. */
-void MpmEngine::refuseStates(int dim) const
-{
-	for (const int id : m_points->points.id) {
-		if (id < 0) continue;
-		const State* state = m_links[std::size_t(id)].state.get();
-		if (!state) continue;
-		const std::string body  = "O.bodies[" + std::to_string(id) + "].state";
-		const Vector3r&   force = scene->forces.getForce(id);
-		require(force.allFinite(), "O.forces", "f(" + std::to_string(id) + ")", force.transpose(),
-			"look at the engine, contact or script that applies it");
-		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");
-		require(state->pos.allFinite(), body, "pos", state->pos.transpose(), "give a finite position [m]");
-		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],
-			"in a plane analysis points lie at z = 0 and stay there");
-	}
-}
-
-/* Torque on a point that touches another body; one that does so no more shows its own velocity again. */
-void MpmEngine::readContact(std::size_t p, bool touched, State& state)
-{
-	mpm::Points& points = m_points->points;
-	if (points.touched.empty()) points.prepareContacts();
-	points.touched[p] = touched;
-	if (touched) {
-		const Vector3r& torque = scene->forces.getTorque(points.id[p]);
-		if (!torque.allFinite())
-			refuse("O.forces", "t(" + std::to_string(points.id[p]) + ")", torque.transpose(),
-				"look at the engine, contact or script that applies it");
-		for (std::size_t k = 0, turns = points.torque.size(); k < turns; ++k)
-			points.torque[k][p] = torque[turns == 3 ? int(k) : 2];
-	} else {
-		for (std::size_t d = 0; d < points.moving.size(); ++d)
-			state.vel[int(d)] = points.velocity[d][p];
-		state.angVel = Vector3r::Zero();
-	}
-}
-
-void MpmEngine::writeBodies()
-{
-	if (m_bodies == 0) return;
-	const mpm::Points& points = m_points->points;
-	const std::size_t  dim    = points.advance.size();
-	bool               outrun = false;
-	for (std::size_t p = 0; p < points.count(); ++p) {
-		if (points.id[p] < 0) continue;
-		const Link& link    = m_links[std::size_t(points.id[p])];
-		State&      state   = *link.state;
-		const bool  touched = !points.touched.empty() && points.touched[p];
-		for (std::size_t d = 0; d < dim; ++d) {
-			state.se3.position[int(d)] = points.position[d][p] + points.advance[d][p];
-			state.vel[int(d)]          = (touched ? points.moving : points.velocity)[d][p];
-		}
-		for (std::size_t k = 0, turns = points.spin.size(); k < turns && touched; ++k)
-			state.angVel[turns == 3 ? int(k) : 2] = points.spin[k][p];
-		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
-		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;
-	}
-	if (outrun) scene->doSort = true;
+			points.position[std::size_t(d)][p] = links().body(points.id[p]).state->pos[d];
+	if (changes.erased) m_points->dropErased(*scene->bodies);
+	if (!changes.moved.empty()) m_points->continuity.forget();
+	m_points->runtime.solver->pointsChanged();
+	checkPoints(m_points->runtime.solver->analysis());
 }
 
 } // namespace yade

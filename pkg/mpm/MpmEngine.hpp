@@ -2,20 +2,13 @@
 #pragma once
 
 #include "AsWritten.hpp"
+#include "BodyLinks.hpp"
+#include "EngineOrder.hpp"
 #include "MpmPoints.hpp"
 #include "MpmWall.hpp"
-#include "kernel/Continuity.hpp"
+#include "Sequences.hpp"
 #include <core/GlobalEngine.hpp>
 #include <core/Timing.hpp>
-
-namespace boost::serialization {
-template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
-{
-	yade::mpm::Continuity::Memory& m = continuity.memory;
-	archive&                       make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
-	archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
-}
-} // namespace boost::serialization
 
 namespace yade {
 
@@ -26,10 +19,13 @@ public:
 	/* Largest stable step of the scene as it stands [s]. */
 	Real criticalTimeStep();
 	/* Bytes that the grid holds. */
-	std::size_t gridBytes() const { return m_points && m_points->runtime.solver ? m_points->runtime.solver->gridBytes() : 0; }
+	std::size_t gridBytes() const;
+
+	void postLoad(MpmEngine&);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmEngine, GlobalEngine, "Explicit material point method (Sulsky, Chen & Schreyer, CMAME 118 (1994) 179; eqs. 12-16 of Sofianos & Koumousis, COMPDYN 2017): moves the material points that :yref:`mpm.fill` has made by solving the momentum equation on a background grid each step. External forces are those that YADE has collected on the points' bodies when this engine runs, so it stands after ForceResetter and the engines that apply forces. The grid follows the points.",
+		((SavedBy, savedBy, , Attr::hidden, "Version that has saved the scene"))
 		((Real, cellSize, NaN, , "Edge of a grid cell, > 0 [m]; between two parallel walls stretched to fit a whole number of cells. Mandatory. Two points a cell and axis are usual: twice the spacing of mpm.fill."))
 		((std::string, analysis, "planeStress", , "'planeStress' or 'planeStrain' (points with a thickness, moving in x and y), 'axisymmetric' or '3d'. In axisymmetry x is the radius and y the axis. Points filled with axisymmetric=True are full rings; masses, forces on bodies, contacts and reactions belong to full rings; the axis x = 0 is a plane of symmetry without a wall."))
 		((std::string, shape, "cubic", , "Shape functions: 'linear', 'gimp' (uniform GIMP), 'quadratic' or 'cubic' B-splines."))
@@ -46,8 +42,8 @@ public:
 		((Real, largestGap, 2, , "Largest gap between neighbouring points, or between points and the fixed wall that holds them, in cells, > 0 [-]. The gap is the part of their distance that the deformation of the material between them does not explain. A larger gap is numerical fracture, because the points share no node any more; it ends the run with an error that names the points. The check runs when points can have moved a quarter of a cell since the last one, every 10 to 1000 steps, with at most twice the last interval. inf switches the check off, for a body that is expected to separate. Points of a DruckerPragerMat are excluded, because it has a tension cut-off."))
 		((Real, unfiltered, 0, (Attr::hidden), "Time that has passed with a filterTime since the last filtering [s]"))
 		((Real, acousticLimit, NaN, (Attr::hidden), "Stable step of the points at rest, as last found [s]"))
-		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, full mass or not, number of points and laws for which the stable step was last looked at"))
-		((mpm::Continuity, continuity, , Attr::hidden, "What the check for gaps knows of neighbours"))
+		((std::vector<Real>, acousticFor, , (Attr::hidden), "Scheme, full mass or not, number of points, grid, walls and laws for which the stable step was last found"))
+		((Real, checkedStep, 0, (Attr::hidden), "Steps up to this one are known to be stable [s]"))
 		((long, untilLook, 0, (Attr::hidden), "Steps to the next look at the gaps"))
 		((long, lookInterval, 5, (Attr::hidden), "Steps from the last look at the gaps to the next one"))
 		((std::vector<Vector3r>, wallsLeft, , (Attr::hidden), "Origins of the walls, as the last step has left them"))
@@ -56,57 +52,46 @@ public:
 		timingDeltas = shared_ptr<TimingDeltas>(new TimingDeltas);
 		,
 		.def(AsWritten())
+		.def(Sequences<MpmWall>("MpmEngine.walls"))
 		.def("criticalTimeStep", &MpmEngine::criticalTimeStep, "Largest stable step of the present scene [s]: 2/omega of the discrete operator with elastic stiffness, limited so that the fastest point crosses less than a cell. doc/method.md has the derivation.")
 		.add_property("gridBytes", &MpmEngine::gridBytes, "Memory of the grid [bytes].")
 	);
 	// clang-format on
 
 private:
-	shared_ptr<MpmPoints>                      m_points;
-	std::tuple<std::string, std::string, Real> m_solverFor; // analysis, shape, cellSize that the solver was made for
-	mpm::Solver*                               m_solver       = nullptr;
+	MpmPoints*                                 m_points = nullptr; // during a step
+	std::tuple<std::string, std::string, Real> m_solverFor;        // analysis, shape, cellSize that the solver was made for
+	long                                       m_solver       = 0; // MpmPoints::Runtime::solverNumber of it
 	std::size_t                                m_bodies       = 0; // points that have one
 	std::size_t                                m_checkedCount = 0;
-	Real                                       m_checkedStep  = 0; // steps up to this one are known to be stable
+	bool                                       m_valuesDue    = true; // columns have not been looked through for numbers that are not finite
+	EngineOrder                                m_order;
 
-	enum class Role { other, self, stepper, newton, loop };
-	struct Checked { // of O.engines, when its order was checked
-		Engine* engine;
-		bool    dead;
-		Role    role; // what an engine means for the time step
+	struct Attached { // the points are let go of after the lock
+		shared_ptr<MpmPoints>        points;
+		std::unique_lock<std::mutex> lock;
 	};
-	std::vector<Checked> m_checkedEngines;
-
-	struct Link { // held, so that their addresses are theirs alone
-		shared_ptr<Body>  body;
-		shared_ptr<State> state;
-	};
-	std::vector<Link> m_links; // bodies known to be points', by id
 
 	void step();
 	/* Brings points, laws, walls and solver up to what the scene says; throws on bad input. */
-	mpm::StepControl             prepare();
-	void                         prepareWalls(int dim, bool axisymmetric);
-	void                         prepareSolver();
-	std::unique_lock<std::mutex> attach();
-	bool                         stretches(mpm::Analysis kind) const;
-	void                         checkPoints(mpm::Analysis kind) const;
-	void                         checkGimp() const;
-	void                         checkEngineOrder();
-	void                         planFilter(mpm::StepControl& control);
-	bool                         checkClocks() const;
-	bool                         stiffnessChanged(const mpm::StepControl& control);
-	void                         checkStep(const mpm::StepControl& control, bool stepper);
-	void                         adaptStep(mpm::StepControl& control, bool stepper);
-	void                         checkContinuity(const mpm::StepControl& control);
-	bool                         link(std::size_t p);
-	void                         readBodies();
-	template <int dim> bool      readStates(std::vector<std::size_t>& moved);
-	void                         takeVelocity(std::size_t p, bool touched, const Vector3r& shown);
-	void                         refuseStates(int dim) const;
-	void                         readContact(std::size_t p, bool touched, State& state);
-	void                         writeBodies();
-	void                         reportEnergies() const;
+	mpm::StepControl prepare();
+	void             prepareWalls(int dim, bool axisymmetric);
+	void             prepareSolver();
+	Attached         attach();
+	void             checkKinematics(mpm::Analysis kind);
+	void             checkValues();
+	void             forgetStep();
+	bool             stretches(mpm::Analysis kind) const;
+	void             checkPoints(mpm::Analysis kind) const;
+	void             checkGimp() const;
+	void             planFilter(mpm::StepControl& control);
+	bool             stiffnessChanged(const mpm::StepControl& control);
+	void             checkStep(const mpm::StepControl& control, bool stepper);
+	void             adaptStep(mpm::StepControl& control, bool stepper);
+	void             checkContinuity(const mpm::StepControl& control);
+	void             readBodies();
+	BodyLinks&       links();
+	void             reportEnergies() const;
 };
 REGISTER_SERIALIZABLE(MpmEngine);
 

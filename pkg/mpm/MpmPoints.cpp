@@ -3,11 +3,13 @@
 #include "Buffers.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
+#include "kernel/LoadedColumns.hpp"
 #include "kernel/PointDriver.hpp"
 #include <Eigen/Eigenvalues>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Omega.hpp>
+#include <numeric>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/Sphere.hpp>
 
@@ -23,13 +25,29 @@ namespace {
 shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)
 {
 	for (const auto& item : scene.miscParams)
-		if (auto points = dynamic_pointer_cast<MpmPoints>(item)) return points;
+		if (auto points = boost::dynamic_pointer_cast<MpmPoints>(item)) return points;
 	return {};
+}
+
+shared_ptr<MpmPoints> MpmPoints::ofScene()
+{
+	Scene&                scene  = *Omega::instance().getScene();
+	shared_ptr<MpmPoints> points = of(scene);
+	if (points) return points;
+	points.reset(new MpmPoints);
+	scene.miscParams.push_back(points);
+	return points;
 }
 
 void MpmPoints::finish()
 {
-	if (runtime.solver) runtime.solver->finish();
+	try {
+		if (runtime.solver) runtime.solver->finish();
+	} catch (const mpm::StepFailure&) {
+		if (runtime.failed) return;
+		runtime.failed = true;
+		throw;
+	}
 }
 
 void MpmPoints::updateLaws()
@@ -46,11 +64,52 @@ void MpmPoints::updateLaws()
 		}
 }
 
+void MpmPoints::requireContactLaw() const
+{
+	for (std::size_t m = 0; m < materials.size(); ++m)
+		if (!dynamic_cast<const FrictMat*>(materials[m].get()) && inUse(m))
+			throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label
+						 + "': O.engines has an InteractionLoop, and YADE aborts at a contact of this material; give the points a "
+						   "FrictMat, which is as elastic");
+}
+
+bool MpmPoints::updateMasses()
+{
+	bool changed = false;
+	for (std::size_t m = 0; m < materials.size(); ++m) {
+		const Real density = materials[m]->density;
+		densities.resize(materials.size(), NaN);
+		if (densities[m] == density || !(density > 0)) continue;
+		densities[m] = density;
+		for (std::size_t p = 0; p < points.count(); ++p) {
+			const Real mass = density * points.volume0[p];
+			if (points.material[p] != int(m) || std::abs(mass - points.mass[p]) <= 1e-12 * mass) continue;
+			finish();
+			setMass(p, mass);
+			changed = true;
+		}
+	}
+	return changed;
+}
+
+void MpmPoints::setMass(std::size_t p, Real mass)
+{
+	const BodyContainer& bodies = *Omega::instance().getScene()->bodies;
+	Real&                now    = points.mass[p];
+	State* const         state  = bodyOf(p, bodies) ? bodies[unsigned(points.id[p])]->state.get() : nullptr;
+	if (state && state->mass == now) state->mass = mass;
+	if (points.energies.started)
+		for (const mpm::Column& v : points.velocity)
+			points.energies.external -= .5 * (mass - now) * v[p] * v[p];
+	now = mass;
+}
+
 /* Whether what points have of internal variables means the same to another law; a law without any leaves none behind. */
 bool MpmPoints::keepsInternals(const mpm::Law& before, const mpm::Law& after) const
 {
 	const mpm::Internals a = mpm::Internals::of(before), b = mpm::Internals::of(after);
-	return points.internal.empty() || a.columns(1) == 0 || (a.tensors == b.tensors && a.scalars == b.scalars && before.kind == after.kind);
+	return points.internal.empty() || a.columns(1) == 0
+	       || (a.tensors == b.tensors && a.scalars == b.scalars && before.model.index() == after.model.index());
 }
 
 void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& material)
@@ -60,6 +119,7 @@ void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& materi
 	const std::size_t before = std::size_t(points.material[p]), after = std::size_t(found - materials.begin());
 	points.material[p] = int(after);
 	updateLaws();
+	const Real denser = materials[after]->density / materials[before]->density;
 	if (mpm::Internals::of(runtime.laws[after]).columns(1) == 0)
 		for (mpm::Column& column : points.internal)
 			column[p] = 0; // an elastic point forgets
@@ -68,6 +128,9 @@ void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& materi
 		throw std::runtime_error(
 			"O.bodies[" + std::to_string(points.id[p]) + "].mat = " + material->getClassName() + " '" + material->label + incompatible);
 	}
+	densities.resize(materials.size(), NaN);
+	if (std::isnan(densities[after])) densities[after] = materials[after]->density;
+	if (denser > 0 && denser != 1) setMass(p, denser * points.mass[p]);
 }
 
 const Body* MpmPoints::bodyOf(std::size_t p, const BodyContainer& bodies) const
@@ -95,7 +158,7 @@ void MpmPoints::dropErased(const BodyContainer& bodies)
 	for (std::size_t p = 0; p < points.count(); ++p)
 		if (points.id[p] < 0 || bodyOf(p, bodies))
 			kept.push_back(p);
-		else if (energies.started) {
+		else if (energies.started && runtime.laws.size() == materials.size()) {
 			// without a solver, which a loaded scene does not have yet
 			const mpm::Energies stored = mpm::storedEnergy(analysis(), runtime.laws[std::size_t(points.material[p])], points, p);
 			const Real          V = volume(p), elastic = V * stored.elastic, hardening = V * stored.hardening;
@@ -129,6 +192,14 @@ mpm::Internals MpmPoints::internals(std::size_t p) const
 /* The laws are not saved; a loaded scene can be looked at before its first step. */
 void MpmPoints::postLoad(MpmPoints&)
 {
+	std::string fault = mpm::faultOf(points, materials.size());
+	for (const auto& material : materials)
+		if (!material && fault.empty()) fault = "materials has an empty entry";
+	if (const std::string neighbours = mpm::faultOf(continuity.memory); fault.empty() && !neighbours.empty()) fault = "continuity." + neighbours;
+	const auto least = std::min_element(points.id.begin(), points.id.end());
+	if (fault.empty() && (nextBodyless >= 0 || (least != points.id.end() && nextBodyless >= *least)))
+		fault = "nextBodyless = " + std::to_string(nextBodyless) + " is no id for a new point";
+	if (!fault.empty()) throw std::runtime_error("MpmPoints." + fault + ": the saved scene is damaged; load another copy of it");
 	try {
 		updateLaws();
 	} catch (const std::runtime_error&) {
@@ -142,37 +213,41 @@ void MpmPoints::preSave(MpmPoints&)
 	const std::lock_guard<std::mutex> lock(mutex);
 	try {
 		finish();
-	} catch (const mpm::StepFailure&) {
+	} catch (const mpm::StepFailure&) { // of a stress update that nobody has looked at yet
 	}
 }
+
+namespace {
+	/* Place of an id in the order in which points were made: bodies, then points without one. */
+	std::int64_t rank(int id) { return id >= 0 ? id : (std::int64_t(1) << 31) - 1 - std::int64_t(id); }
+} // namespace
 
 const MpmPoints::Directory& MpmPoints::directory()
 {
 	Directory& d = m_directory;
 	if (d.generation == points.generation && d.order.size() == points.count()) return d;
-	d.bodies.clear(), d.loose.clear(), d.order.clear();
-	for (std::size_t p = 0; p < points.count(); ++p) {
-		const int         id    = points.id[p];
-		auto&             place = id >= 0 ? d.bodies : d.loose;
-		const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
-		if (place.size() <= at) place.resize(std::max(at + 1, 2 * place.size()), nowhere);
-		place[at] = p;
-	}
-	d.order.reserve(points.count());
-	for (const auto* places : { &d.bodies, &d.loose })
-		for (const std::size_t p : *places)
-			if (p != nowhere) d.order.push_back(p);
+	std::size_t bodies = 0, loose = 0; // greater than every place
+	for (const int id : points.id)
+		(id >= 0 ? bodies : loose) = std::max(id >= 0 ? bodies : loose, std::size_t(id >= 0 ? id : -1 - id) + 1);
+	d.order.resize(points.count());
+	std::iota(d.order.begin(), d.order.end(), std::size_t(0));
+	if (bodies + loose < 8 * points.count() + 65536) { // a table is faster than sorting, unless ids are few and far between
+		std::vector<std::size_t> table(bodies + loose, nowhere);
+		for (std::size_t p = 0; p < points.count(); ++p)
+			table[points.id[p] >= 0 ? std::size_t(points.id[p]) : bodies + std::size_t(-1 - points.id[p])] = p;
+		std::remove_copy(table.begin(), table.end(), d.order.begin(), nowhere);
+	} else
+		std::sort(d.order.begin(), d.order.end(), [this](std::size_t p, std::size_t q) { return rank(points.id[p]) < rank(points.id[q]); });
 	d.generation = points.generation;
 	return d;
 }
 
 std::size_t MpmPoints::indexOf(int id)
 {
-	const Directory&  d     = directory();
-	const auto&       place = id >= 0 ? d.bodies : d.loose;
-	const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
-	if (at >= place.size() || place[at] == nowhere) throw std::runtime_error("there is no material point " + std::to_string(id) + " (any more)");
-	return place[at];
+	const std::vector<std::size_t>& order = directory().order;
+	const auto at = std::lower_bound(order.begin(), order.end(), id, [this](std::size_t p, int wanted) { return rank(points.id[p]) < rank(wanted); });
+	if (at == order.end() || points.id[*at] != id) throw std::runtime_error("there is no material point " + std::to_string(id) + " (any more)");
+	return *at;
 }
 
 const std::vector<std::size_t>& MpmPoints::inOrder() { return directory().order; }
@@ -203,13 +278,14 @@ Matrix3r MpmPoints::stress(std::size_t p) const
 
 Matrix3r MpmPoints::backStress(std::size_t p) const
 {
-	return internals(p).tensors > 0 && !points.internal.empty() ? tensor(points.internal, p) : Matrix3r::Zero();
+	return internals(p).tensors > 0 && points.internal.size() >= points.stress.size() ? tensor(points.internal, p) : Matrix3r::Zero();
 }
 
 Real MpmPoints::plasticStrain(std::size_t p) const
 {
 	const mpm::Internals layout = internals(p);
-	return layout.scalars > 0 && !points.internal.empty() ? points.internal[std::size_t(layout.tensors) * points.stress.size()][p] : 0;
+	const std::size_t    column = std::size_t(layout.tensors) * points.stress.size();
+	return layout.scalars > 0 && column < points.internal.size() ? points.internal[column][p] : 0;
 }
 
 Matrix3r MpmPoints::deformation(std::size_t p) const
@@ -233,7 +309,7 @@ Matrix3r MpmPoints::strain(std::size_t p) const
 	} else
 		strain = .5 * (F + F.transpose()) - Matrix3r::Identity();
 	if (points.stress.size() == 3) { // plane stress: the thickness is free to follow, whether or not the method follows it
-		if (!points.freeStrain.empty() && !keepsVolume(runtime.laws[std::size_t(points.material[p])]))
+		if (!points.freeStrain.empty() && runtime.laws.size() == materials.size() && !runtime.laws[std::size_t(points.material[p])].keepsVolume())
 			strain(2, 2) = points.freeStrain[p];
 		else {
 			const auto& elastic = dynamic_cast<const ElastMat&>(*materials[std::size_t(points.material[p])]);
@@ -252,12 +328,6 @@ Real MpmPoints::vonMises(std::size_t p) const
 }
 
 // ---- py/mpm -------------------------------------------------------------------------------------------------------------
-
-namespace {
-	/* Bodies outside the scene's own subdomain (0) are left alone by NewtonIntegrator and do not touch each other, while
-	contacts with other bodies and forces on them work as usual: what a material point wants. */
-	constexpr int subdomainOfPoints = 1;
-} // namespace
 
 /* Number of a group: the one given, or that of a name; a new name gets the next free number. */
 int MpmPoints::groupOf(int number, const std::string& name)
@@ -309,11 +379,11 @@ py::object MpmPoints::append(
 		state->vel                 = Vector3r(velocity.data()[3 * k], velocity.data()[3 * k + 1], velocity.data()[3 * k + 2]);
 		state->mass                = mass.data()[k];
 		state->inertia             = Vector3r::Constant(.4 * state->mass * sphere->radius * sphere->radius);
-		state->points              = static_pointer_cast<MpmPoints>(shared_from_this());
+		state->points              = boost::static_pointer_cast<MpmPoints>(shared_from_this());
 		body->state                = state;
 		body->shape                = sphere;
 		body->material             = material;
-		body->subdomain            = subdomainOfPoints;
+		body->subdomain            = MpmState::subdomainOfPoints;
 		if (!mask.is_none()) body->groupMask = py::extract<int>(mask)();
 		states.push_back(state), made.push_back(body);
 	}
@@ -341,7 +411,7 @@ py::object MpmPoints::append(
 	++points.generation;
 	filled = true;
 	if (!points.stress.empty()) // columns that the analysis in hand needs, for whoever looks at the points before the next step
-		points.prepare(int(points.advance.size()), int(points.stress.size()), int(points.internal.size()), !points.thicknessStretch.empty(),
+		points.prepare(points.deformation.size() == 9 ? 3 : 2, int(points.stress.size()), int(points.internal.size()), !points.thicknessStretch.empty(),
 			!points.force.empty(), !points.dissipation.empty(), !points.freeStrain.empty());
 	for (std::size_t k = 0; k < n && stressed; ++k)
 		storeStress(points.count() - n + k, stress->data() + 9 * k);
@@ -412,7 +482,8 @@ namespace {
 	bool admits(const mpm::Law& law, const Real (&stress)[6])
 	{
 		const Real given = std::sqrt(mpm::Solid::mises2(stress));
-		if (law.kind == mpm::Law::Kind::boucWen) return given <= law.boucWen.yieldStress * (1 + 1e-9); // its update has no yield surface to return to
+		if (mpm::is<mpm::BoucWen>(law))
+			return given <= mpm::as<mpm::BoucWen>(law).yieldStress * (1 + 1e-9); // its update has no yield surface to return to
 		Real              sigma[6], none[6] {};
 		std::vector<Real> internal(std::size_t(mpm::Internals::of(law).columns(6)), 0.);
 		std::copy(stress, stress + 6, sigma);

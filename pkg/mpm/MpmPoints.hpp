@@ -2,7 +2,8 @@
 #pragma once
 
 #include "MpmTraction.hpp"
-#include "kernel/Version.hpp"
+#include "SavedBy.hpp"
+#include "kernel/Continuity.hpp"
 #include "kernel/solver/Solver.hpp"
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -33,9 +34,17 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
+template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
+{
+	yade::mpm::Continuity::Memory& m = continuity.memory;
+	archive&                       make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
+	archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
+}
 } // namespace boost::serialization
 
 namespace yade {
+
+class BodyLinks;
 
 /* The material points of a scene. They belong to the scene, as bodies do, not to the engine that moves them: an engine may
 be replaced, and points may exist before there is one. Found in O.miscParams, saved with the scene, and held by the state
@@ -49,17 +58,30 @@ public:
 		std::vector<mpm::Law>        laws; // in the order of materials
 		std::vector<mpm::Wall>       walls;
 		std::unique_ptr<mpm::Solver> solver;
+		std::shared_ptr<BodyLinks>   links;                // to the points' bodies
+		long                         solverNumber = 0;     // unlike its address, no other solver has had it
+		bool                         failed       = false; // the last step has
 	};
 
 	/* Those of the scene, or an empty pointer. */
 	static shared_ptr<MpmPoints> of(const Scene& scene);
+	/* For py/mpm: those of the scene in hand, new ones if it has none. Python must not append them to O.miscParams: YADE's conversion of a
+	list never lets go of its items, and every scene would stay in memory after O.reset(). */
+	static shared_ptr<MpmPoints> ofScene();
 
 	std::size_t count() const { return points.count(); }
 	std::string text() const { return "<MpmPoints: " + std::to_string(count()) + " material points; look at them with mpm.array()>"; }
-	/* Carries out the pending stress update. */
+	/* Carries out the pending stress update. Throws StepFailure where it fails; not again after a step that has failed, so that the points
+	can be read and saved as that step has left them. */
 	void finish();
 	/* Brings the kernel's laws up to the materials' attributes; throws on bad ones. */
 	void updateLaws();
+	/* Throws if points with bodies have a material that YADE's contact laws would abort on. */
+	void requireContactLaw() const;
+	/* Points of a material whose density has changed get the mass of the new one. Returns whether there were any. */
+	bool updateMasses();
+	/* Changes a point's mass, and that of its body where the two agree; the kinetic energy that it brings is external work. */
+	void setMass(std::size_t p, Real mass);
 	/* Gives a point another material; throws where its internal variables would not fit. */
 	void changeMaterial(std::size_t p, const shared_ptr<Material>& material);
 	/* The body that stands for a point, or null where it has none (any more). */
@@ -121,10 +143,13 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MpmPoints, Serializable, "The material points of a scene, held in O.miscParams and saved with it. Use :yref:`mpm.fill` to make points and :yref:`mpm.array` to look at them.",
+		((SavedBy, savedBy, , Attr::hidden, "Version that has saved the scene"))
 		((mpm::Points, points, , Attr::hidden, "Structure of arrays"))
 		((std::vector<std::string>, groups, , Attr::hidden, "Names of groups 1, 2, ... of points; empty where a group has a number only"))
 		((std::vector<shared_ptr<MpmTraction>>, tractions, , Attr::hidden, "Loads on faces"))
 		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
+		((std::vector<Real>, densities, , Attr::hidden, "Of each material, when its points were last given their masses [kg/m3]"))
+		((mpm::Continuity, continuity, , Attr::hidden, "What the check for gaps knows of neighbours"))
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
@@ -134,6 +159,7 @@ public:
 		.add_property("tractions", &MpmPoints::loads, "Loads on faces, by :yref:`mpm.traction`; a list [-].")
 		.def("setStress", &MpmPoints::setStress, "Initial stress; :yref:`mpm.setStress` calls it.")
 		.def_readonly("groups", &MpmPoints::groups, "Names of groups 1, 2, ... of points [-].")
+		.def("ofScene", &MpmPoints::ofScene, "Points of the scene in hand, new ones if it has none; :yref:`mpm.fill` calls it.").staticmethod("ofScene")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
@@ -147,8 +173,7 @@ private:
 	static constexpr std::size_t nowhere = std::size_t(-1);
 	struct Directory { // of the points as they stand, made when asked for
 		std::size_t              generation = 0;
-		std::vector<std::size_t> bodies, loose; // index of the point with id k, and of that with id -1 - k, or nowhere
-		std::vector<std::size_t> order;
+		std::vector<std::size_t> order; // indices of the points, bodies by id, then the others
 	};
 	Directory m_directory;
 

@@ -10,6 +10,10 @@ namespace yade {
 each step and read by it before; the rest is fetched from the points' arrays when asked for. */
 class MpmState : public State {
 public:
+	/* NewtonIntegrator leaves bodies outside of the scene's own subdomain (0) alone, and the collider makes no contact between two of them,
+	while their contacts with other bodies and the forces on them work as usual. No process of yade.mpy has a negative number. */
+	static constexpr int subdomainOfPoints = -1;
+
 	Matrix3r stress() const { return read(&MpmPoints::stress); }
 	Matrix3r strain() const { return read(&MpmPoints::strain); }
 	Matrix3r backStress() const { return read(&MpmPoints::backStress); }

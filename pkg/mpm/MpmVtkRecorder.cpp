@@ -4,6 +4,7 @@
 #include "BadInput.hpp"
 #include <core/Scene.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -62,7 +63,25 @@ namespace {
 		set->GetPointData()->AddArray(values);
 	}
 
-	void write(vtkUnstructuredGrid* set, const std::string& file, bool ascii, bool compress)
+	[[noreturn]] void refuseFile(const std::string& file)
+	{
+		throw std::runtime_error(std::string(self) + ": cannot write " + file + ": is the disk full, or the folder write-protected?");
+	}
+
+	/* A file that appears whole or not at all: write(name) writes it under another name and returns whether it could. */
+	template <class Write> void writeWhole(const std::string& file, Write&& write)
+	{
+		const std::string part = file + ".part";
+		std::error_code   fault;
+		if (write(part)) {
+			std::filesystem::rename(part, file, fault);
+			if (!fault) return;
+		}
+		std::filesystem::remove(part, fault);
+		refuseFile(file);
+	}
+
+	bool writeSet(vtkUnstructuredGrid* set, const std::string& file, bool ascii, bool compress)
 	{
 		vtkNew<vtkXMLUnstructuredGridWriter> writer;
 		writer->SetFileName(file.c_str());
@@ -72,8 +91,7 @@ namespace {
 		else
 			writer->SetDataModeToAppended(), writer->EncodeAppendedDataOff();
 		if (!compress) writer->SetCompressorTypeToNone();
-		if (!writer->Write() || writer->GetErrorCode() != 0)
-			throw std::runtime_error(std::string(self) + ": cannot write " + file + ": is the disk full, or the folder write-protected?");
+		return writer->Write() && writer->GetErrorCode() == 0;
 	}
 } // namespace
 
@@ -89,9 +107,26 @@ void MpmVtkRecorder::record()
 	const std::lock_guard<std::mutex> lock(points->mutex);
 	points->finish();
 	check(*points);
-	times.push_back(scene->time);
 	writePoints(*points);
 	if (wants("grid")) writeGrid(*points);
+}
+
+void MpmVtkRecorder::postLoad(MpmVtkRecorder&)
+{
+	if (times.size() == files.size() && gridTimes.size() == gridFiles.size()) return;
+	throw std::runtime_error(std::string(self) + ".times has " + std::to_string(times.size()) + " entries for " + std::to_string(files.size())
+				 + " files, and gridTimes " + std::to_string(gridTimes.size()) + " for " + std::to_string(gridFiles.size())
+				 + ": the saved scene is damaged; load another copy of it");
+}
+
+/* Name of this step's file. */
+std::string MpmVtkRecorder::newFile(const std::string& what, const std::vector<std::string>& written) const
+{
+	const std::string file = nameOf(what) + "." + std::to_string(scene->iter) + ".vtu";
+	if (contains(written, file))
+		refuse(self, "fileName", "'" + fileName + "'",
+			file + " has been written already, before O.resetTime(); give another fileName for what follows");
+	return file;
 }
 
 bool MpmVtkRecorder::wants(const std::string& what) const { return contains(recorders, what); }
@@ -147,9 +182,10 @@ void MpmVtkRecorder::writePoints(MpmPoints& points)
 		const auto quantity = points.quantity(name);
 		addField(set, name, quantity.components, order.size(), [&](std::size_t k, double* out) { quantity.read(order[k], out); });
 	}
-	files.push_back(nameOf("points") + "." + std::to_string(scene->iter) + ".vtu");
-	write(set, files.back(), ascii, compress);
-	writeCollection("points", files);
+	const std::string file = newFile("points", files);
+	writeWhole(file, [&](const std::string& name) { return writeSet(set, name, ascii, compress); });
+	files.push_back(file), times.push_back(scene->time);
+	writeCollection("points", files, times);
 }
 
 void MpmVtkRecorder::writeGrid(const MpmPoints& points)
@@ -165,13 +201,14 @@ void MpmVtkRecorder::writeGrid(const MpmPoints& points)
 	const auto set = vertices(count, vector(nodes.position));
 	addField(set, "mass", 1, count, [&](std::size_t k, double* out) { *out = nodes.mass[k]; });
 	addField(set, "velocity", 3, count, vector(nodes.velocity));
-	gridFiles.push_back(nameOf("grid") + "." + std::to_string(scene->iter) + ".vtu");
-	write(set, gridFiles.back(), ascii, compress);
-	writeCollection("grid", gridFiles);
+	const std::string file = newFile("grid", gridFiles);
+	writeWhole(file, [&](const std::string& name) { return writeSet(set, name, ascii, compress); });
+	gridFiles.push_back(file), gridTimes.push_back(scene->time);
+	writeCollection("grid", gridFiles, gridTimes);
 }
 
-/* ParaView's list of files and times; names are relative to the list's own folder. */
-void MpmVtkRecorder::writeCollection(const std::string& what, const std::vector<std::string>& list) const
+/* ParaView's list of the files with this fileName, and their times; names are relative to the list's own folder. */
+void MpmVtkRecorder::writeCollection(const std::string& what, const std::vector<std::string>& list, const std::vector<Real>& when) const
 {
 	vtkNew<vtkXMLDataElement> root, collection;
 	root->SetName("VTKFile");
@@ -180,17 +217,22 @@ void MpmVtkRecorder::writeCollection(const std::string& what, const std::vector<
 	collection->SetName("Collection");
 	root->AddNestedElement(collection);
 	for (std::size_t k = 0; k < list.size(); ++k) {
+		if (list[k].compare(0, nameOf(what).size() + 1, nameOf(what) + ".") != 0) continue; // written under another fileName
 		vtkNew<vtkXMLDataElement> entry;
 		entry->SetName("DataSet");
 		std::ostringstream time; // as a number VTK would write it to six digits
-		time << std::setprecision(17) << times[times.size() - list.size() + k];
+		time << std::setprecision(17) << when[k];
 		entry->SetAttribute("timestep", time.str().c_str());
 		entry->SetAttribute("part", "0");
 		entry->SetAttribute("file", std::filesystem::path(list[k]).filename().c_str());
 		collection->AddNestedElement(entry);
 	}
-	const std::string file = nameOf(what) + ".pvd";
-	root->PrintXML(file.c_str());
+	writeWhole(nameOf(what) + ".pvd", [&](const std::string& name) {
+		std::ofstream file(name);
+		root->PrintXML(file, vtkIndent());
+		file.close();
+		return bool(file);
+	});
 }
 
 } // namespace yade

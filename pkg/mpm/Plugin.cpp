@@ -6,6 +6,9 @@
 #include "MpmTraction.hpp"
 #include "MpmVtkRecorder.hpp"
 #include "MpmWall.hpp"
+#ifdef YADE_PLUGIN_BUILT_FOR // not where YADE's own build compiles this folder
+#	include <PluginLoad.hpp>
+#endif
 
 namespace yade {
 YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmTraction)(MpmEngine)(MpmVtkRecorder));

@@ -185,17 +185,16 @@ def criticalTimeStep():
 
 
 def _engine():
-	for engine in O.engines:
-		if isinstance(engine, wrapper.MpmEngine): return engine
+	engines = [engine for engine in O.engines if isinstance(engine, wrapper.MpmEngine)]
+	if engines: return next((engine for engine in engines if not engine.dead), engines[0])
 	raise RuntimeError('mpm: O.engines has no MpmEngine; add MpmEngine(cellSize=...) to it first')
 
 
 def _points(create=False):
+	if create: return wrapper.MpmPoints.ofScene()
 	for item in O.miscParams:
 		if isinstance(item, wrapper.MpmPoints): return item
-	points = wrapper.MpmPoints()
-	if create: O.miscParams = list(O.miscParams) + [points]
-	return points
+	return wrapper.MpmPoints()
 
 
 def findMaterial(material, caller):

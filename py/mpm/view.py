@@ -18,17 +18,31 @@ def color(quantity='vonMises', limits=None, colormap='viridis'):
 	:param limits: values of the two ends of the colour map, in the quantity's unit; without them its least and greatest value
 	:param str colormap: name of a colour map of matplotlib
 	:returns: the limits used
-	:raises ValueError: if there is no such quantity or colour map, or it is not one number a point
+	:raises ValueError: if there is no such quantity or colour map, if the quantity is not one number a point, or the limits are not two
+		finite numbers, the first one below the second
 	"""
 	import matplotlib
-	values = array(quantity) if isinstance(quantity, str) else numpy.asarray(quantity, dtype=float)
+	try: values = array(quantity) if isinstance(quantity, str) else numpy.asarray(quantity, dtype=float)
+	except (TypeError, ValueError):
+		if isinstance(quantity, str): raise
+		raise ValueError('mpm.color: quantity = %r: give the name of a quantity of mpm.array, or one number a point' % (quantity,)) from None
 	ids = array('id')
 	if values.shape != ids.shape:
 		raise ValueError('mpm.color: quantity has shape %s: give one number a point, shape %s, e.g. mpm.array(%r)[:,0,0]' % (values.shape, ids.shape, 'stress'))
 	if len(ids) == 0: raise ValueError('mpm.color: there are no material points; make them with mpm.fill()')
-	if colormap not in matplotlib.colormaps: raise ValueError('mpm.color: colormap = %r: matplotlib has none of this name; try viridis, jet or coolwarm' % (colormap,))
-	low, high = (float(values.min()), float(values.max())) if limits is None else map(float, limits)
+	if not isinstance(colormap, str) or colormap not in matplotlib.colormaps: raise ValueError('mpm.color: colormap = %r: matplotlib has none of this name; try viridis, jet or coolwarm' % (colormap,))
+	low, high = _limits(values, limits)
 	shade = (values - low)/(high - low) if high > low else numpy.zeros(len(values))
 	for i, rgb in zip(ids.tolist(), matplotlib.colormaps[colormap](shade)[:, :3].tolist()):
-		if i >= 0: O.bodies[i].shape.color = rgb
+		body = O.bodies[i] if 0 <= i < len(O.bodies) else None  # none: without one, or erased since the last step
+		if body is not None and body.shape is not None: body.shape.color = rgb
+	return low, high
+
+
+def _limits(values, limits):
+	if limits is None: return float(values.min()), float(values.max())
+	try: low, high = map(float, limits)
+	except (TypeError, ValueError): low, high = 0, 0
+	if not -numpy.inf < low < high < numpy.inf:
+		raise ValueError('mpm.color: limits = %r: give two finite numbers, the lesser one first, or None for the least and the greatest value' % (limits,))
 	return low, high

@@ -175,8 +175,8 @@ std::array<double, 2> staticCantilever(const Choice& k, int cells, bool plastic,
 	Scene        s;
 	s.laws = { Scene::elastic(210e9, .3, 7850) };
 	if (plastic) s.laws = { Scene::boucWen(210e9, .3, 7850, 240e6, 100, 0) };
-	s.laws[0].boucWen.reloading = 2;
-	s.walls                     = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+	as<BoucWen>(s.laws[0]).reloading = 2;
+	s.walls                          = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
 	s.addBox(2, { 0, -depth / 2, 0 }, { 1, depth / 2, 0 }, spacing);
 	const Column start = s.points.position[1];
 	Column       weight(s.points.count(), 0);

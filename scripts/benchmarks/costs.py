@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a scene pays for: instructions a point and step of scenes inside YADE's loop, in the kernel, in MpmEngine around it
 and in the rest of the loop, with one thread and AVX2.  costs.py <folder for costs.csv>"""
-import csv, os, sys
+import csv, os, re, sys
 import callgrind
 
 root = os.path.realpath(os.path.join(os.path.dirname(__file__), '..', '..'))
 build = os.environ.get('YADE_MPM_BUILD', os.path.join(root, 'build'))
 prefix = os.path.join(build, 'prefix') # scripts/yade-mpm has made it
+with open(os.path.join(build, 'yade.conf')) as file: yade = dict(re.findall(r"^(\w+)='(.*)'$", file.read(), re.M))
 across, steps = 40, 20
 solver, engine = r'MpmSolver<.*>::step\(', r'MpmEngine::action\('
 solid = r'Solver<yade::mpm::Solid'
@@ -17,7 +18,7 @@ block += [('scene.py', '2', 'cubic', 'elastic', what) for what in ('fullMass', '
 
 def counted(script, *arguments):
     """Those of the steps between two runs of the script's PyRunner."""
-    command = ['/usr/bin/python3.11', '/usr/bin/yade', '-j1', '-n', '-x', os.path.join(root, 'scripts/benchmarks', script), *arguments]
+    command = [yade['yadePython'], yade['yadeProgram'], '-j1', '-n', '-x', os.path.join(root, 'scripts/benchmarks', script), *arguments]
     return callgrind.inclusive(command, (solver, engine, solid), ['--toggle-collect=yade::Scene::moveToNextTimeStep()'],
         {'YADE_PREFIX': prefix, 'MPM_BENCHMARK_STEPS': str(steps), 'MPM_INSTRUCTIONS': 'avx2'}, between='yade::PyRunner::action()')
 

@@ -6,7 +6,6 @@
 //
 //	mpm_law_benchmark [--benchmark_filter=...]
 //	mpm_law_benchmark count LAW dx alike|mixed|alone UPDATES   does so many updates of a point, for callgrind
-#include "kernel/laws/BoucWen.hpp"
 #include "kernel/laws/LawLanes.hpp"
 #include <benchmark/benchmark.h>
 #include <cstring>
@@ -24,21 +23,30 @@ using State = PlaneStress;
 enum class Order { alike, mixed, alone };
 constexpr const char* orderNames[] = { "alike", "mixed", "alone" };
 
-Law elasticLaw()
+Law lawOf(const Model& model)
 {
 	Law law;
-	law.elastic = law.boucWen.elastic = law.j2.elastic = law.druckerPrager.elastic = { young, poisson };
-	law.boucWen.yieldStress = law.j2.yieldStress = yieldStress;
-	law.boucWen.hardening = law.j2.hardening = BoucWenParameters::hardeningModulus(young, .05);
-	law.druckerPrager.cohesion = yieldStress / 2, law.druckerPrager.internalFriction = .5, law.druckerPrager.dilatancy = .2;
+	law.elastic = { young, poisson };
+	law.model   = model;
 	return law;
 }
-Law lawOf(Law::Kind kind, double n = 10)
+Law boucWen(double n)
 {
-	Law law       = elasticLaw();
-	law.kind      = kind;
-	law.boucWen.n = n;
-	return law;
+	BoucWen model;
+	model.yieldStress = yieldStress, model.hardening = hardeningModulus(young, .05), model.n = n;
+	return lawOf(model);
+}
+Law j2()
+{
+	J2 model;
+	model.yieldStress = yieldStress, model.hardening = hardeningModulus(young, .05);
+	return lawOf(model);
+}
+Law druckerPrager()
+{
+	DruckerPrager model;
+	model.cohesion = yieldStress / 2, model.internalFriction = .5, model.dilatancy = .2;
+	return lawOf(model);
 }
 template <class Change> Law changed(Law law, Change&& change)
 {
@@ -49,18 +57,18 @@ const struct {
 	const char* name;
 	Law         law;
 } laws[] = {
-	{ "elastic", elasticLaw() },
-	{ "n=2", lawOf(Law::Kind::boucWen, 2) },
-	{ "n=2.5", lawOf(Law::Kind::boucWen, 2.5) },
-	{ "n=2.3", lawOf(Law::Kind::boucWen, 2.3) }, // by pow
-	{ "n=10", lawOf(Law::Kind::boucWen, 10) },
-	{ "n=25", lawOf(Law::Kind::boucWen, 25) },
-	{ "n=10,reloading", changed(lawOf(Law::Kind::boucWen), [](Law& law) { law.boucWen.reloading             = std::numeric_limits<double>::infinity(); }) },
-	{ "n=10,degradation", changed(lawOf(Law::Kind::boucWen), [](Law& law) { law.boucWen.strengthDegradation= law.boucWen.stiffnessDegradation = .01; }) },
-	{ "n=10,isotropic", changed(lawOf(Law::Kind::boucWen), [](Law& law) { law.boucWen.isotropic.modulus= .02 * young; }) },
-	{ "J2", lawOf(Law::Kind::j2) },
-	{ "J2,isotropic", changed(lawOf(Law::Kind::j2), [](Law& law) { law.j2.isotropic.modulus= .02 * young; }) },
-	{ "Drucker-Prager", lawOf(Law::Kind::druckerPrager) },
+	{ "elastic", lawOf(Elastic()) },
+	{ "n=2", boucWen(2) },
+	{ "n=2.5", boucWen(2.5) },
+	{ "n=2.3", boucWen(2.3) }, // by pow
+	{ "n=10", boucWen(10) },
+	{ "n=25", boucWen(25) },
+	{ "n=10,reloading", changed(boucWen(10), [](Law& law) { as<BoucWen>(law).reloading             = std::numeric_limits<double>::infinity(); }) },
+	{ "n=10,degradation", changed(boucWen(10), [](Law& law) { as<BoucWen>(law).strengthDegradation= as<BoucWen>(law).stiffnessDegradation = .01; }) },
+	{ "n=10,isotropic", changed(boucWen(10), [](Law& law) { as<BoucWen>(law).isotropic.modulus= .02 * young; }) },
+	{ "J2", j2() },
+	{ "J2,isotropic", changed(j2(), [](Law& law) { as<J2>(law).isotropic.modulus= .02 * young; }) },
+	{ "Drucker-Prager", druckerPrager() },
 };
 
 class Cloud {
@@ -99,17 +107,17 @@ public:
 	/* Mean number over a cycle. */
 	double subSteps()
 	{
-		int      count = 0, steps = 0;
-		Reals<1> heat {};
+		int          count = 0, steps = 0;
+		Responses<1> heat;
 		for (double x = 0; x < 10; x += m_dx, ++steps)
 			for (std::size_t p = 0; p < points; ++p) {
 				auto&        block = m_blocks[p / lanes];
 				const int    l     = int(p % lanes);
 				const double e     = next(m_phase[p]);
-				Reals<1>     strain[N] { { e }, { -.2 * e }, { .5 * e } }, sigma[N], internal[Internals::most(N)];
+				Reals<1>     strain[N] { { e }, { -.2 * e }, { .5 * e } }, sigma[N], internal[maxInternals(N)];
 				transfer(
 					block, [&](Reals<1>& mine, Lanes& its) { mine[0] = its[l]; }, sigma, internal);
-				boucWenUpdate<State>(m_law.boucWen, strain, sigma, internal, heat, &count);
+				as<BoucWen>(m_law).update<State>(m_law.elastic, strain, sigma, internal, heat, &count);
 				transfer(
 					block, [&](Reals<1>& mine, Lanes& its) { its[l] = mine[0]; }, sigma, internal);
 			}
@@ -137,7 +145,7 @@ private:
 	}
 	void alone(LawBlock<State>& block, int l) const
 	{
-		double       sigma[N], internal[Internals::most(N)];
+		double       sigma[N], internal[maxInternals(N)];
 		const double strain[N] = { block.G[0][l], block.G[3][l], block.G[1][l] + block.G[2][l] };
 		transfer(
 			block, [l](double& mine, Lanes& its) { mine = its[l]; }, sigma, internal);
@@ -153,7 +161,7 @@ void updates(benchmark::State& state, const Law& law, double dx, Order order)
 	for (auto _ : state)
 		cloud.step();
 	state.SetItemsProcessed(state.iterations() * points);
-	if (law.kind == Law::Kind::boucWen) state.counters["substeps"] = cloud.subSteps();
+	if (is<BoucWen>(law)) state.counters["substeps"] = cloud.subSteps();
 }
 
 int count(const std::string& name, double dx, const std::string& order, long updates)

@@ -101,11 +101,11 @@ void impact(const Transfer& transfer)
 void ratcheting(const Transfer& transfer)
 {
 	for (double reloading : { 0., HUGE_VAL }) {
-		Law law               = Scene::boucWen(young, 0, density, 1e-3 * young, 2, .05);
-		law.boucWen.reloading = reloading;
-		Scene        s        = held(16, law, Wall::Kind::slip);
-		const double weight   = .9 * law.boucWen.yieldStress / density;
-		s.control.damping     = .05;
+		Law law                    = Scene::boucWen(young, 0, density, 1e-3 * young, 2, .05);
+		as<BoucWen>(law).reloading = reloading;
+		Scene        s             = held(16, law, Wall::Kind::slip);
+		const double weight        = .9 * as<BoucWen>(law).yieldStress / density;
+		s.control.damping          = .05;
 		transfer.set(s.control, .2);
 		for (int k = 0; k < 8000; ++k)
 			s.control.gravity[0] = weight * std::min(1., (k + 1) / 4000.), s.step();

@@ -22,8 +22,8 @@ const double pi = std::acos(-1.);
 Law druckerPragerLaw()
 {
 	Law law;
-	law.kind = Law::Kind::druckerPrager, law.elastic = law.druckerPrager.elastic = { youngModulus, poissonRatio };
-	law.druckerPrager.cohesion = .5 * yieldStress, law.druckerPrager.internalFriction = .5, law.druckerPrager.dilatancy = .1;
+	law.model = DruckerPrager(), law.elastic = { youngModulus, poissonRatio };
+	as<DruckerPrager>(law).cohesion = .5 * yieldStress, as<DruckerPrager>(law).internalFriction = .5, as<DruckerPrager>(law).dilatancy = .1;
 	return law;
 }
 

@@ -13,8 +13,8 @@ constexpr double cohesion = 20e3, friction = .5, dilatancy = .2, soilModulus = 5
 Law soil(double c = cohesion, double phi = friction, double psi = dilatancy)
 {
 	Law law;
-	law.kind = Law::Kind::druckerPrager, law.elastic = law.druckerPrager.elastic = { soilModulus, soilPoisson };
-	law.druckerPrager.cohesion = c, law.druckerPrager.internalFriction = phi, law.druckerPrager.dilatancy = psi;
+	law.model = DruckerPrager(), law.elastic = { soilModulus, soilPoisson };
+	as<DruckerPrager>(law).cohesion = c, as<DruckerPrager>(law).internalFriction = phi, as<DruckerPrager>(law).dilatancy = psi;
 	return law;
 }
 template <class S> double coneValue(const Law& law, const double* s)
@@ -22,7 +22,7 @@ template <class S> double coneValue(const Law& law, const double* s)
 	double trace = 0;
 	for (int k = 0; k < normals<S>(); ++k)
 		trace += s[k];
-	return std::sqrt(S::mises2(s)) + law.druckerPrager.slope(law.druckerPrager.internalFriction) * trace / 3 - law.druckerPrager.strength();
+	return std::sqrt(S::mises2(s)) + as<DruckerPrager>(law).slope(as<DruckerPrager>(law).internalFriction) * trace / 3 - as<DruckerPrager>(law).strength();
 }
 
 TEST(DruckerPragerLaw, UnconfinedAndTriaxialCompressionAreMohrCoulombs)
@@ -38,7 +38,7 @@ TEST(DruckerPragerLaw, UnconfinedAndTriaxialCompressionAreMohrCoulombs)
 	// dilatancy: d(eps_v)/d(p) = etaPsi, p the deviatoric plastic strain
 	auto         volume = [&](std::size_t i) { return point.strain[9 * i] + point.strain[9 * i + 4] + point.strain[9 * i + 8]; };
 	const double rate   = (volume(50) - volume(40)) / (point.plasticStrain[50] - point.plasticStrain[40]);
-	EXPECT_NEAR(rate, DruckerPragerParameters::slope(dilatancy), 1e-8);
+	EXPECT_NEAR(rate, DruckerPrager::slope(dilatancy), 1e-8);
 
 	// under a cell pressure: hydrostatic, then axial strain with the lateral stress held by hand
 	const double    cell = 100e3;
@@ -64,7 +64,7 @@ TEST(DruckerPragerLaw, TensionEndsAtTheApex)
 	const Law       law = soil();
 	LawPoint<Solid> point(law);
 	point.strain({ 1e-2, 1e-2, 1.1e-2, 2e-4, 0, 0 });
-	const double apex = law.druckerPrager.strength() / DruckerPragerParameters::slope(friction);
+	const double apex = as<DruckerPrager>(law).strength() / DruckerPrager::slope(friction);
 	EXPECT_NEAR(apex, cohesion / std::tan(friction), 1e-9 * apex);
 	for (int k = 0; k < 6; ++k)
 		EXPECT_NEAR(point.sigma[k], k < 3 ? apex : 0, 1e-9 * apex);
@@ -72,9 +72,9 @@ TEST(DruckerPragerLaw, TensionEndsAtTheApex)
 
 TEST(DruckerPragerLaw, WithoutFrictionItIsJ2)
 {
-	Law perfect     = j2Law(0);
-	perfect.elastic = perfect.j2.elastic = { soilModulus, soilPoisson };
-	perfect.j2.yieldStress               = 2 * cohesion;
+	Law perfect                 = j2Law(0);
+	perfect.elastic             = { soilModulus, soilPoisson };
+	as<J2>(perfect).yieldStress = 2 * cohesion;
 	LawPoint<PlaneStrain> a(soil(cohesion, 0, 0)), b(perfect);
 	LawPoint<PlaneStress> c(soil(cohesion, 0, 0)), d(perfect);
 	for (const double sign : { 1., -1.5, 2. }) {
@@ -106,7 +106,7 @@ template <class S> void randomPaths(unsigned seed)
 				e = size * normal(random);
 			const double plastic = point.plasticStrain(), dissipation = point.response.dissipation;
 			point.strain(increment);
-			const double scale = law.druckerPrager.strength() + std::sqrt(S::mises2(point.sigma));
+			const double scale = as<DruckerPrager>(law).strength() + std::sqrt(S::mises2(point.sigma));
 			ASSERT_LE(coneValue<S>(law, point.sigma), 1e-9 * scale + 1e-12 * soilModulus * size);
 			ASSERT_GE(point.plasticStrain(), plastic);
 			ASSERT_GE(point.response.dissipation, dissipation - 1e-12 * scale * size);

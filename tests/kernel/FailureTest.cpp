@@ -228,7 +228,7 @@ TEST(FailureTest, StrainedByMoreThanTheLawCanFollow)
 				int id = -1;
 				EXPECT_EQ(failure(s, 10, id), "");
 				EXPECT_TRUE(sound(s));
-				s.laws[0].boucWen.strengthDegradation = .1;
+				as<BoucWen>(s.laws[0]).strengthDegradation = .1;
 				s.points.prepare(2, 3, Internals::of(s.laws[0]).columns(3), false, false, energy, false);
 				strike();
 				const std::string text = failure(s, 3, id);

@@ -120,7 +120,7 @@ TEST(HardCasesTest, YieldAtEveryPointAtOnce)
 					for (int k = 0; k < 1000; ++k)
 						updateStress<Uniaxial>(law, &part, &sigma, internal);
 					least = std::min(least, strain), greatest = std::max(greatest, strain);
-					worst = std::max(worst, std::abs(s.points.stress[0][p] - sigma) / law.boucWen.yieldStress);
+					worst = std::max(worst, std::abs(s.points.stress[0][p] - sigma) / as<BoucWen>(law).yieldStress);
 				}
 				EXPECT_NEAR(least, std::log(1.003), 2e-6) << "a strain rate of 1/(1 + t)";
 				EXPECT_NEAR(greatest, least, 1e-9);
@@ -367,8 +367,8 @@ TEST(HardCasesTest, VerySharpKnee)
 {
 	const double yieldStress = 1e-3 * young;
 	Law          smooth = Scene::boucWen(young, 0, density, yieldStress, 200, .05), sharp = Scene::elastic(young, 0, density);
-	sharp.kind       = Law::Kind::j2;
-	sharp.j2.elastic = sharp.elastic, sharp.j2.yieldStress = yieldStress, sharp.j2.hardening = BoucWenParameters::hardeningModulus(young, .05);
+	sharp.model               = J2();
+	as<J2>(sharp).yieldStress = yieldStress, as<J2>(sharp).hardening = hardeningModulus(young, .05);
 	std::array<std::vector<double>, 2> tips;
 	for (std::size_t k = 0; k < 2; ++k) {
 		Scene s = bar(32, ShapeKind::cubic, { k ? sharp : smooth });
@@ -396,17 +396,17 @@ TEST(HardCasesTest, RatchetingByNoise)
 	std::array<double, 2> creep {}, early {}, late {};
 	for (std::size_t k = 0; k < 2; ++k) {
 		Law law = Scene::boucWen(young, 0, density, 1e-3 * young, 2, .05);
-		if (k) law.boucWen.reloading = HUGE_VAL;
+		if (k) as<BoucWen>(law).reloading = HUGE_VAL;
 		Scene s               = bar(16, ShapeKind::cubic, { law });
 		s.control.trackEnergy = true;
 		s.start(Analysis::uniaxial, ShapeKind::cubic, 1. / 16);
-		const double full = .9 * law.boucWen.yieldStress / density;
+		const double full = .9 * as<BoucWen>(law).yieldStress / density;
 		auto         tip  = [&] { return s.points.position[0][s.byId().back()]; };
 		auto         heat = [&] { // mean over the volume, over the elastic energy at yield
                         double sum = 0;
                         for (double d : s.points.dissipation)
                                 sum += d / double(s.points.count());
-                        return sum / (.5 * law.boucWen.yieldStress * law.boucWen.yieldStress / young);
+                        return sum / (.5 * as<BoucWen>(law).yieldStress * as<BoucWen>(law).yieldStress / young);
 		};
 		s.control.damping = .05;
 		const int ramp    = 4000;

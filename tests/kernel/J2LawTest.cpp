@@ -26,14 +26,14 @@ TEST(J2Law, UniaxialCycleIsBilinear)
 
 TEST(J2Law, IsotropicHardeningReachesItsRadius)
 {
-	Law law          = j2Law(.05);
-	law.j2.isotropic = { .02 * youngModulus, .5 * yieldStress, .7 / yieldStrain };
+	Law law               = j2Law(.05);
+	as<J2>(law).isotropic = { .02 * youngModulus, .5 * yieldStress, .7 / yieldStrain };
 	LawPoint<PlaneStress> plane(law);
 	LawPoint<Solid>       solid(law);
 	plane.strain({ 9 * yieldStrain, -2 * yieldStrain, 5 * yieldStrain });
 	solid.strain({ 9 * yieldStrain, -2 * yieldStrain, 0, 3 * yieldStrain, 0, 5 * yieldStrain });
-	EXPECT_NEAR(plane.f(), law.j2.isotropic.radius(yieldStress, plane.plasticStrain()) / yieldStress, 1e-12);
-	EXPECT_NEAR(solid.f(), law.j2.isotropic.radius(yieldStress, solid.plasticStrain()) / yieldStress, 1e-12);
+	EXPECT_NEAR(plane.f(), as<J2>(law).isotropic.radius(yieldStress, plane.plasticStrain()) / yieldStress, 1e-12);
+	EXPECT_NEAR(solid.f(), as<J2>(law).isotropic.radius(yieldStress, solid.plasticStrain()) / yieldStress, 1e-12);
 	EXPECT_GT(plane.f(), 1.5);
 }
 

@@ -2,71 +2,13 @@
 /* Laws in lanes: eight points on random paths of their own, in sub-steps and iterations of their own, are what each of them is
 alone, to rounding, for every law and option, stress state, instruction set, small and large strain. */
 #include "kernel/laws/LawLanes.hpp"
-#include "LawPoint.hpp"
+#include "EveryLaw.hpp"
 #include "kernel/Kinematics.hpp"
 #include <gtest/gtest.h>
-#include <limits>
 
 using namespace yade::mpm;
 
 namespace {
-
-struct Named {
-	const char* name;
-	Law         law;
-};
-
-Law boucWen(double n, const std::function<void(BoucWenParameters&)>& options)
-{
-	Law law = boucWenLaw(n, .05, 1e-4);
-	options(law.boucWen);
-	return law;
-}
-std::vector<Named> everyLaw()
-{
-	const IsotropicHardening linear { .02 * youngModulus, 0, 0 }, voce { .01 * youngModulus, .5 * yieldStress, .3 / yieldStrain };
-	constexpr double         infinity = std::numeric_limits<double>::infinity();
-
-	Law elastic  = j2Law(0);
-	elastic.kind = Law::Kind::elastic;
-	Law hardens = j2Law(.05), saturates = j2Law(.05);
-	hardens.j2.isotropic = linear, saturates.j2.isotropic = voce;
-	Law soil                   = elastic;
-	soil.kind                  = Law::Kind::druckerPrager;
-	soil.druckerPrager.elastic = soil.elastic, soil.druckerPrager.cohesion = .3 * yieldStress;
-	soil.druckerPrager.internalFriction = .5, soil.druckerPrager.dilatancy = .2;
-	Law smooth                            = soil; // no apex, no dilatancy
-	smooth.druckerPrager.internalFriction = smooth.druckerPrager.dilatancy = 0;
-
-	return {
-		{ "elastic", elastic },
-		{ "J2", j2Law(0) },
-		{ "J2, kinematic hardening", j2Law(.05) },
-		{ "J2, isotropic hardening", hardens },
-		{ "J2, saturation", saturates },
-		{ "Drucker-Prager", soil },
-		{ "Drucker-Prager without friction", smooth },
-		{ "n = 0.6", boucWenLaw(.6, .05, 1e-4) },
-		{ "n = 2", boucWenLaw(2, 0, 1e-4) },
-		{ "n = 2.5", boucWenLaw(2.5, .05, 1e-4) },
-		{ "n = 2.3, by pow", boucWenLaw(2.3, .05, 1e-4) },
-		{ "n = 200", boucWenLaw(200, .05, 1e-4) },
-		{ "gamma > beta", boucWen(2, [](auto& p) { p.beta = .1, p.gamma = .9; }) },
-		{ "isotropic hardening", boucWen(4, [=](auto& p) { p.isotropic             = linear; }) },
-		{ "saturation", boucWen(4, [=](auto& p) { p.isotropic                      = voce; }) },
-		{ "strength degradation", boucWen(2, [](auto& p) { p.strengthDegradation   = .1; }) },
-		{ "stiffness degradation", boucWen(2, [](auto& p) { p.stiffnessDegradation = .3; }) },
-		{ "pinching", boucWen(2, [](auto& p) { p.pinching = .7, p.pinchingLevel = .3; }) },
-		{ "reloading 2", boucWen(2, [](auto& p) { p.reloading         = 2; }) },
-		{ "elastic reloading", boucWen(10, [=](auto& p) { p.reloading = infinity; }) },
-		{ "all options", boucWen(3,
-					 [=](auto& p) {
-						 p.isotropic = voce, p.strengthDegradation = .1, p.stiffnessDegradation = .3, p.pinching = .7,
-						 p.reloading = infinity;
-					 }) },
-		{ "the paper's rule", boucWen(2, [](auto& p) { p.loadingRule = BoucWenParameters::LoadingRule::paper; }) },
-	};
-}
 
 template <class S> void comparePaths(const Law& law, InstructionSet set, bool largeStrain, unsigned seed)
 {
@@ -122,7 +64,7 @@ template <class S> void comparePaths(const Law& law, InstructionSet set, bool la
 				ASSERT_TRUE(std::isfinite(block.sigma[0][l]));
 			}
 			// a short reloading is stiff, as n = r/(f_rev - f_0) would be, and sub-steps at the limit of stability amplify rounding
-			const bool stiff = law.kind == Law::Kind::boucWen && law.boucWen.remembers() && std::isfinite(law.boucWen.reloading);
+			const bool stiff = is<BoucWen>(law) && as<BoucWen>(law).remembers() && std::isfinite(as<BoucWen>(law).reloading);
 			ASSERT_LT(worst, stiff ? 1e-6 : 1e-11) << "path " << path << ", increment " << i;
 		}
 	}
@@ -140,7 +82,7 @@ TYPED_TEST_SUITE(LawLanes, States);
 
 TYPED_TEST(LawLanes, ArePointsAlone)
 {
-	for (const Named& named : everyLaw())
+	for (const NamedLaw& named : everyLaw())
 		for (InstructionSet set : { InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512 }) {
 			if (!isSupported(set)) continue;
 			for (bool largeStrain : { false, true }) {
@@ -162,9 +104,9 @@ TYPED_TEST(LawLanes, AFarStrainLeavesTheOthersAlone)
 				for (int l = 0; l < lanes; ++l)
 					for (int k = 0; k < TypeParam::dim * TypeParam::dim; ++k)
 						near.G[k][l] = far.G[k][l] = (k ? .7 : 2) * (l + step) * yieldStrain;
-				far.G[0][3] = law.boucWen.paper() ? HUGE_VAL : 5e3 * yieldStrain;
+				far.G[0][3] = is<BoucWen>(law) && as<BoucWen>(law).paper() ? HUGE_VAL : 5e3 * yieldStrain;
 				updateBlock(set, law, false, near), updateBlock(set, law, false, far);
-				EXPECT_EQ(std::isfinite(far.sigma[0][3]), !law.boucWen.paper());
+				EXPECT_EQ(std::isfinite(far.sigma[0][3]), !as<BoucWen>(law).paper());
 				for (int l = 0; l < lanes; ++l)
 					for (int k = 0; k < TypeParam::N && l != 3; ++k)
 						ASSERT_EQ(near.sigma[k][l], far.sigma[k][l]) << name(set) << ", lane " << l;

@@ -14,17 +14,17 @@ constexpr double youngModulus = 210e9, poissonRatio = .3, yieldStress = 240e6, y
 inline Law boucWenLaw(double n, double tangentRatio, double tolerance)
 {
 	Law law;
-	law.kind = Law::Kind::boucWen, law.elastic = law.boucWen.elastic = { youngModulus, poissonRatio };
-	law.boucWen.yieldStress = yieldStress, law.boucWen.n = n, law.boucWen.tolerance = tolerance;
-	law.boucWen.hardening = BoucWenParameters::hardeningModulus(youngModulus, tangentRatio);
+	law.model = BoucWen(), law.elastic = { youngModulus, poissonRatio };
+	as<BoucWen>(law).yieldStress = yieldStress, as<BoucWen>(law).n = n, as<BoucWen>(law).tolerance = tolerance;
+	as<BoucWen>(law).hardening = hardeningModulus(youngModulus, tangentRatio);
 	return law;
 }
 inline Law j2Law(double tangentRatio)
 {
 	Law law;
-	law.kind = Law::Kind::j2, law.elastic = law.j2.elastic = { youngModulus, poissonRatio };
-	law.j2.yieldStress = yieldStress;
-	law.j2.hardening   = BoucWenParameters::hardeningModulus(youngModulus, tangentRatio);
+	law.model = J2(), law.elastic = { youngModulus, poissonRatio };
+	as<J2>(law).yieldStress = yieldStress;
+	as<J2>(law).hardening   = hardeningModulus(youngModulus, tangentRatio);
 	return law;
 }
 

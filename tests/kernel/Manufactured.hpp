@@ -177,10 +177,10 @@ struct HystereticBar {
 	{
 		const double h = 1. / cells;
 		Scene        s;
-		Law          law      = Scene::boucWen(young, 0, density, yieldStress, 2, ratio);
-		law.boucWen.tolerance = tolerance;
-		s.laws                = { law };
-		s.walls               = { Scene::wall(0, 1, 0, Wall::Kind::slip), Scene::wall(0, -1, 1, Wall::Kind::slip) };
+		Law          law           = Scene::boucWen(young, 0, density, yieldStress, 2, ratio);
+		as<BoucWen>(law).tolerance = tolerance;
+		s.laws                     = { law };
+		s.walls                    = { Scene::wall(0, 1, 0, Wall::Kind::slip), Scene::wall(0, -1, 1, Wall::Kind::slip) };
 		s.addBox(1, { 0, 0, 0 }, { 1, 0, 0 }, h / pointsPerCell);
 		const Column X = s.points.position[0]; // by id
 		s.setVelocity([&](auto x) {            // half a step before the start, as leapfrog has it

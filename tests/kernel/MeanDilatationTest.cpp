@@ -20,11 +20,10 @@ constexpr std::array<Analysis, 3> confined { Analysis::planeStrain, Analysis::ax
 
 Law j2(double young, double poisson, double density, double yieldStress, double modulus)
 {
-	Law law                  = Scene::elastic(young, poisson, density);
-	law.kind                 = Law::Kind::j2;
-	law.j2.elastic           = law.elastic;
-	law.j2.yieldStress       = yieldStress;
-	law.j2.isotropic.modulus = modulus;
+	Law law                       = Scene::elastic(young, poisson, density);
+	law.model                     = J2();
+	as<J2>(law).yieldStress       = yieldStress;
+	as<J2>(law).isotropic.modulus = modulus;
 	return law;
 }
 

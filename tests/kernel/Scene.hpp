@@ -53,11 +53,10 @@ public:
 	}
 	static Law boucWen(double young, double poisson, double density, double yieldStress, double n, double tangentRatio)
 	{
-		Law law                 = elastic(young, poisson, density);
-		law.kind                = Law::Kind::boucWen;
-		law.boucWen.elastic     = law.elastic;
-		law.boucWen.yieldStress = yieldStress, law.boucWen.n = n;
-		law.boucWen.hardening = BoucWenParameters::hardeningModulus(young, tangentRatio);
+		Law law                      = elastic(young, poisson, density);
+		law.model                    = BoucWen();
+		as<BoucWen>(law).yieldStress = yieldStress, as<BoucWen>(law).n = n;
+		as<BoucWen>(law).hardening = hardeningModulus(young, tangentRatio);
 		return law;
 	}
 	static Wall wall(int axis, int side, double position, Wall::Kind kind)

@@ -62,8 +62,8 @@ TEST(StableStepTest, ScalesWithTheWaveSpeedAndShortensWithVelocity)
 		EXPECT_NEAR(changed(1, 4, 0), dt * 2, 1e-3 * dt);
 		EXPECT_NEAR(changed(1, 1, 3), 1 / (1 / dt + 3 / h), 1e-9 * dt);
 		// asked for between two steps it changes nothing, and a stiffer law of the same material counts
-		Law stiffer          = Scene::boucWen(young, .3, density, 1e3, 2, .05);
-		stiffer.boucWen.beta = .1, stiffer.boucWen.gamma = .9;
+		Law stiffer               = Scene::boucWen(young, .3, density, 1e3, 2, .05);
+		as<BoucWen>(stiffer).beta = .1, as<BoucWen>(stiffer).gamma = .9;
 		Scene other = body(analysis, .3, h, { 2, 1, 1 });
 		other.laws  = { stiffer };
 		other.start(analysis, ShapeKind::cubic, h);

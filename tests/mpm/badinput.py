@@ -187,9 +187,18 @@ def wall(what, *parts, repair=None, others=(), **attributes):
 
 left = {'normal': (1, 0, 0)}
 refused('a wall without normal', 'MpmWall 0.normal', 'nan', 'into the material', walls=[MpmWall(origin=(-1, 0, 0))])
-wall('normal of zero', 'MpmWall 0.normal', 'into the material', normal=(0, 0, 0), repair=left)
-wall('inclined wall', 'MpmWall 0.normal', '1 1 0', 'coordinate axis', normal=(1, 1, 0), repair=left)
-wall('slightly inclined wall', 'MpmWall 0.normal', 'coordinate axis', normal=(1, 1e-3, 0), repair=left)
+# refused as soon as it is given, and where one component of it is set, before the step
+for what, normal, *parts in ('of zero', (0, 0, 0), 'into the material'), ('inclined', (1, 1, 0), '1 1 0', 'coordinate axis'), ('slightly inclined', (1, 1e-3, 0), 'coordinate axis'), \
+		('partly NaN', (1, nan, 0), 'nan', 'into the material'):
+	says('normal %s, of a new wall' % what, error(lambda: MpmWall(normal=normal)), RuntimeError, 'MpmWall.normal', *parts)
+	says('normal %s, of a wall that has one' % what, error(lambda: setattr(MpmWall(normal=(0, 1, 0)), 'normal', normal)), RuntimeError, 'MpmWall.normal', *parts)
+turned = MpmWall(normal=(1, 0, 0), origin=(-1, 0, 0))
+turned.normal[1] = 1
+refused('inclined by a component', 'MpmWall 0.normal', '1 1 0', 'coordinate axis', walls=[turned], fit=lambda grid: turned.updateAttrs(left))
+says('a YADE wall in walls', error(lambda: MpmEngine(cellSize=1, walls=[MpmWall(normal=(1, 0, 0)), Body()])), TypeError, 'MpmEngine.walls[1]', 'Body', 'MpmWall')
+says('a number for walls', error(lambda: setattr(MpmEngine(cellSize=1), 'walls', 3)), TypeError, 'MpmEngine.walls = 3', 'list', 'MpmWall')
+for kind in 'fixed', 'slip':
+	wall('friction of a wall of kind %s' % kind, 'MpmWall 0.friction = 0.3', "kind = 'friction'", kind=kind, friction=.3, repair={'friction': 0})
 wall('wall normal to z in the plane', 'MpmWall 0.normal', 'plane', 'normal to z', normal=(0, 0, 1), repair=left)
 wall('kind of wall', "MpmWall 0.kind = 'sticky'", "choose 'fixed', 'slip' or 'friction'", kind='sticky', repair={'kind': 'slip'})
 for value in -.1, nan, inf:

@@ -74,8 +74,8 @@ with open(os.path.join(os.path.dirname(os.path.realpath(sys.argv[0])), '../../CM
 	declared = re.search(r'project\(yade-mpm VERSION (\S+)', file.read()).group(1)
 equal('mpm.__version__', mpm.__version__, declared)
 
-# the scene of the docstring, as printed
-scene = [line[1:] for line in mpm.__doc__.splitlines() if line.startswith('\t')]
+# the scene of the docstring, as printed; Python 3.13 expands its tabs
+scene = [line[8:] for line in mpm.__doc__.expandtabs().splitlines() if line.startswith(8*' ')]
 check('the scene has about ten lines', 6 <= len(scene) <= 12, scene)
 O.reset()
 names = dict({k: v for k, v in vars(yade.wrapper).items() if not k.startswith('_')}, O=O)

@@ -99,7 +99,7 @@ x, fields, cells = read(path('beam-spheres.300.vtu'))
 equal("VTKRecorder's sphere beside them", (len(x), cells), (1, 1))
 
 picture = path('beam.png')
-done = subprocess.run(['xvfb-run', '-a', '/usr/bin/python3.11', os.path.realpath(sys.argv[0]), 'draw', recorder.files[-1], picture], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+done = subprocess.run(['xvfb-run', '-a', sys.executable, os.path.realpath(sys.argv[0]), 'draw', recorder.files[-1], picture], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 check('VTK draws the file', done.returncode == 0 and os.path.exists(picture), done.stdout)
 if os.path.exists(picture):
 	import matplotlib.image

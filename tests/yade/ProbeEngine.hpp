@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 /* A plugin of YADE for tests only: one class of each kind that a plugin derives. */
+#include "../../pkg/mpm/Sequences.hpp"
 #include <core/GlobalEngine.hpp>
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
@@ -97,6 +98,7 @@ public:
 		,
 		count += 1;
 		,
+		.def(Sequences<ProbeItem>("ProbeEngine.items"))
 		.def("read", &ProbeEngine::read)
 		.def("write", &ProbeEngine::write)
 		.def("attributesOf", &ProbeEngine::attributesOf)

@@ -68,7 +68,7 @@ equal('an object of a list is shared', item.kind, 'friction')
 equal('a list by keyword', len(ProbeEngine(items=[item, item, item]).items), 3)
 equal('a tuple of objects', len(ProbeEngine(items=(item, item)).items), 2)
 raises('a list with a wrong object', TypeError, 'ProbeItem', lambda: ProbeEngine(items=[FrictMat()]))
-raises('no list', TypeError, 'vector', lambda: ProbeEngine(items=3))
+raises('no list', TypeError, 'ProbeEngine.items = 3: give a list', lambda: ProbeEngine(items=3))
 
 # In the loop.
 O.engines = [ForceResetter(), ProbeEngine(label='grid'), ProbePeriodic(iterPeriod=3, initRun=False, label='every')]

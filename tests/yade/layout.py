@@ -11,7 +11,8 @@ from yade import *
 
 probe = ProbeEngine()
 equal('the running YADE fits', probe.layoutMismatch('', 0, 0), '')
-equal('the version fits', probe.versionMismatch('2023.02a', yade.config.version), '')
+equal('the version fits', probe.versionMismatch(yade.config.version, yade.config.version), '')
+check('another version does not', '2099.01a' in probe.versionMismatch('2099.01a', yade.config.version))
 for name in ('Engine', 'PartialEngine', 'PeriodicEngine', 'Scene', 'Body', 'State', 'FrictMat', 'Sphere', 'BodyContainer'):
     for extra in (-16, 16):
         check('a size of %s off by %d' % (name, extra), 'yade::%s does not have the expected size' % name in probe.layoutMismatch(name, extra, 0))

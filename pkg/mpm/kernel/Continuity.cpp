@@ -25,7 +25,6 @@ namespace {
 			}
 		return mean;
 	}
-	bool letsGo(const Law& law) { return law.kind == Law::Kind::druckerPrager; }
 
 	/* Which of two neighbours has the other on its list. Oblique, so that no usual lattice has neighbours in the plane. */
 	bool isAhead(const Eigen::Vector3d& dX) { return dX.dot(Eigen::Vector3d(1, .41, .17)) > 0; }
@@ -100,8 +99,8 @@ Continuity::Slot* Continuity::slotOf(int id)
 bool Continuity::locate(const Points& points)
 {
 	const std::size_t n = memory.ids.size();
-	if (n == 0) return false;
-	if (m_place.size() != n) { // of a memory that has been loaded
+	if (n == 0 || memory.neighbours.size() != n * std::size_t(dimensionOf(points))) return false; // of points of another dimension
+	if (m_place.size() != n) {                                                                    // of a memory that has been loaded
 		m_bodies.clear(), m_loose.clear();
 		for (std::size_t slot = 0; slot < n; ++slot) {
 			const int         id    = memory.ids[slot];
@@ -135,15 +134,15 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 	constexpr double reach = 1.5; // spacings: neighbours along the axes of a lattice, and next to one
 	const double     width = 2 * *std::max_element(points.size.begin(), points.size.end()); // of bins: neighbours may be stretched already
 	struct Entry {
-		std::array<int, 3> bin;
-		std::size_t        p;
+		std::array<double, 3> bin; // whole numbers, of any size
+		std::size_t           p;
 	};
 	auto               before = [](const Entry& a, const Entry& b) { return a.bin < b.bin; };
 	std::vector<Entry> entries;
 	for (std::size_t p = 0; p < n; ++p) {
-		if (letsGo(laws[std::size_t(points.material[p])])) continue;
+		if (laws[std::size_t(points.material[p])].hasTensionCutoff()) continue;
 		const Eigen::Vector3d x = positionOf(points, p) / width;
-		entries.push_back({ { int(std::floor(x[0])), int(std::floor(x[1])), int(std::floor(x[2])) }, p });
+		entries.push_back({ { std::floor(x[0]), std::floor(x[1]), std::floor(x[2]) }, p });
 	}
 	std::sort(entries.begin(), entries.end(), before);
 
@@ -157,9 +156,9 @@ void Continuity::findNeighbours(const Points& points, const std::vector<Law>& la
 		const std::size_t p = entry.p;
 		found.clear();
 		for (int row = 0; row < 9; ++row) { // of three bins that follow each other along z
-			const int                across = row / 3 - 1, along = row % 3 - 1;
-			const std::array<int, 3> low { entry.bin[0] + across, entry.bin[1] + along, entry.bin[2] - 1 };
-			auto                     e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
+			const int                   across = row / 3 - 1, along = row % 3 - 1;
+			const std::array<double, 3> low { entry.bin[0] + across, entry.bin[1] + along, entry.bin[2] - 1 };
+			auto                        e = std::lower_bound(entries.begin(), entries.end(), Entry { low, 0 }, before);
 			for (; e != entries.end() && e->bin[0] == low[0] && e->bin[1] == low[1] && e->bin[2] <= low[2] + 2; ++e) {
 				const std::size_t     q  = e->p;
 				const Eigen::Vector3d dx = positionOf(points, q) - positionOf(points, p);
@@ -187,7 +186,7 @@ void Continuity::findFootings(const Points& points, const std::vector<Law>& laws
 		if (walls[w].kind != Wall::Kind::fixed) continue;
 		for (std::size_t slot = 0; slot < m_place.size(); ++slot) {
 			const std::size_t p = m_place[slot];
-			if (p == nowhere || letsGo(laws[std::size_t(points.material[p])])) continue;
+			if (p == nowhere || laws[std::size_t(points.material[p])].hasTensionCutoff()) continue;
 			const double distance = depth(points, p, walls[w]) / stretchAlong(points, walls[w].axis, p);
 			if (distance >= .75 * points.size[p]) continue; // not in the layer next to it
 			memory.footings.push_back(Slot(slot)), memory.walls.push_back(Slot(w)), memory.depths.push_back(distance);

@@ -32,7 +32,7 @@ namespace {
 			auto   at = [&](int r, int c) { return 9 * i + std::size_t(3 * axes[std::size_t(r)] + axes[std::size_t(c)]); };
 			double increment[S::N];
 			for (int k = 0; k < S::N; ++k) {
-				const int    c     = S::solid[std::size_t(k)];
+				const int    c     = S::voigtIndex[std::size_t(k)];
 				const double total = strain[at(row[c], column[c])] + strain[at(column[c], row[c])]; // engineering shear, twice the normal
 				const double value = c < 3 ? .5 * total : total;
 				increment[k] = value - before[k], before[k] = value;
@@ -45,7 +45,7 @@ namespace {
 					  "look at the material (yieldStress in Pa?)");
 
 			for (int k = 0; k < S::N; ++k) {
-				const int c = S::solid[std::size_t(k)];
+				const int c = S::voigtIndex[std::size_t(k)];
 				for (const std::size_t entry : { at(row[c], column[c]), at(column[c], row[c]) }) {
 					history.stress[entry] = sigma[k];
 					history.strain[entry] = strain[entry];

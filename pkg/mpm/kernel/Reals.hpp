@@ -3,12 +3,12 @@
 
 namespace yade::mpm {
 
-/* One number of each of several points that are worked on at once, a lane a point. What is written for W lanes is, with
-W = 1, the same for one point. */
-template <int W> struct alignas(8 * W) Reals {
-	double  value[W];
-	double& operator[](int l) { return value[l]; }
-	double  operator[](int l) const { return value[l]; }
+/* One number of each of several points that are updated together, a lane a point. Code for W lanes is, with W = 1, the code
+for one point. The number is a double, or a Dual where derivatives are computed. */
+template <int W, class T = double> struct alignas(8 * W) Reals {
+	T  value[W];
+	T& operator[](int l) { return value[l]; }
+	T  operator[](int l) const { return value[l]; }
 };
 
 /* work(l) for every lane, in vector instructions where it neither branches nor calls. */
@@ -18,7 +18,7 @@ template <int W, class Work> void forLanes(Work&& work)
 	for (int l = 0; l < W; ++l)
 		work(l);
 }
-/* Whether test(l) holds in some lane; all lanes are asked. */
+/* Whether test(l) holds in some lane; the test is evaluated in all lanes. */
 template <int W, class Test> bool anyLane(Test&& test)
 {
 	int any = 0;

@@ -12,8 +12,8 @@ class Interaction : public Serializable {
 
 	::boost::python::dict pyDictCustom() const override;
 	bool                  isReal() const { return bool(geom) && bool(phys); }
-	int                   getId1() const { return id1; }
-	int                   getId2() const { return id2; }
+	const int&            getId1() const { return id1; }
+	const int&            getId2() const { return id2; }
 
 	bool isActive;
 

@@ -9,6 +9,9 @@ class InternalForceFunctor;
 
 class Shape : public Serializable, public Indexable {
 	YADE_DECLARED_CLASS(Shape)
+#if YADE_DECLARED_VERSION >= 202601
+	virtual Real getVolume();
+#endif
 	YADE_DECLARED_INDEX()
 	YADE_DECLARED_INDEX_COUNTER()
 public:

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "PointLaw.hpp"
-#include "StressState.hpp"
+#include "Tangent.hpp"
 #include <algorithm>
 
 namespace yade::mpm {
 
 /* Carries an isotropic law, known in the components of Solid, over to a stress state whose missing normal stresses are
-zero. They all get the same strain increment e, the root of the stress that it causes there, sought between brackets by
-the rule of false position with Illinois' correction, in every lane until the last has found it.
+zero. They all get the same strain increment e, the root of the stress that it causes there, found between brackets by
+the rule of false position with Illinois' correction, in every lane until the last has converged.
 
 update(strain, sigma, p, dissipation) is the law of one point in Solid; p its one internal variable. */
 template <class S, class Update, int W>
@@ -24,7 +24,7 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* stra
                 for (int k = 0; k < 3; ++k)
                         full[k] = trial;
                 for (int k = 0; k < N; ++k)
-                        full[S::solid[k]] = strain[k], s[S::solid[k]] = sigma[k];
+                        full[S::voigtIndex[k]] = strain[k], s[S::voigtIndex[k]] = sigma[k];
                 p3 = p, heat = {};
                 updatePoints<Solid>(update, full, s, p3, heat);
                 f = s[2];
@@ -65,9 +65,45 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* stra
 		});
 	}
 	for (int k = 0; k < N; ++k)
-		sigma[k] = s[S::solid[k]];
+		sigma[k] = s[S::voigtIndex[k]];
 	p = p3;
 	forLanes<W>([&](int l) { response.freeStrain[l] += b[l], response.dissipation[l] += heat[l]; });
+}
+
+/* Applies the update of one point, update(S(), strain, sigma, p, dissipation), in every stress state: directly where all
+three normal stresses are components of S, else by updateWithFreeNormals(). */
+template <class S, class Update, int W, class T>
+void updateInSolid(const Hooke& C, Update&& update, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>& p, Responses<W, T>& response)
+{
+	if constexpr (normals<S>() == 3)
+		updatePoints<S>([&](auto&&... point) { update(S(), point...); }, strain, sigma, p, response.dissipation);
+	else
+		updateWithFreeNormals<S>(
+			C, [&](auto&&... point) { update(Solid(), point...); }, strain, sigma, p, response);
+}
+
+/* The tangent of a law that is updated by updateInSolid(): that of Solid at the strain found, condensed. */
+template <class S, class Model>
+void differentiateInSolid(const Model& law, const Hooke& C, const double* strain, const double* sigma, const double* internal, double* tangent)
+{
+	if constexpr (normals<S>() == 3)
+		differentiateUpdate<S>(law, C, strain, sigma, internal, tangent);
+	else {
+		Reals<1>     e[S::N], s[S::N], state[Model::maxInternals.columns(S::N) + 1] {};
+		Responses<1> response;
+		double       fullStrain[6] {}, fullStress[6] {}, solid[36];
+		for (int k = 0; k < S::N; ++k) {
+			const int c = S::voigtIndex[std::size_t(k)];
+			e[k][0] = fullStrain[c] = strain[k], s[k][0] = fullStress[c] = sigma[k];
+		}
+		for (int k = 0; k < law.internals().columns(S::N); ++k)
+			state[k][0] = internal[k];
+		law.template update<S>(C, e, s, state, response);
+		for (int k = normals<S>(); k < 3; ++k)
+			fullStrain[k] = response.freeStrain[0];
+		differentiateUpdate<Solid>(law, C, fullStrain, fullStress, internal, solid);
+		condenseTangent<S>(solid, tangent);
+	}
 }
 
 } // namespace yade::mpm

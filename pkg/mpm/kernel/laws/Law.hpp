@@ -3,77 +3,87 @@
 
 #include "BoucWen.hpp"
 #include "DruckerPrager.hpp"
+#include "Elastic.hpp"
 #include "J2.hpp"
 #include <string>
+#include <variant>
 
 namespace yade::mpm {
 
-/* A material as the kernel sees it: which law, and the parameters of that law. */
-struct Law {
-	enum class Kind { elastic, boucWen, j2, druckerPrager };
-	Kind                    kind    = Kind::elastic;
-	double                  density = 0;
-	Hooke                   elastic;
-	BoucWenParameters       boucWen;
-	J2Parameters            j2;
-	DruckerPragerParameters druckerPrager;
+/* The list of laws. A law is one struct, in a file of its own (doc/add-a-law.md), and one entry here. */
+using Model = std::variant<Elastic, BoucWen, J2, DruckerPrager>;
 
-	/* Factor on D that bounds the law's tangent; the stable time step shrinks with its root. */
-	double stiffnessBound() const { return kind == Kind::boucWen ? boucWen.stiffnessBound() : 1; }
+namespace detail {
+	/* work(model) with the law that a Model holds; like std::visit, but the compiler can inline it for an instruction set. */
+	template <std::size_t index = 0, class Work> decltype(auto) visitModel(const Model& model, Work&& work)
+	{
+		if constexpr (index + 1 < std::variant_size_v<Model>)
+			if (model.index() != index) return visitModel<index + 1>(model, work);
+		return work(*std::get_if<index>(&model));
+	}
+	template <std::size_t... index> constexpr int maxInternals(int components, std::index_sequence<index...>)
+	{
+		int most = 0;
+		for (const int columns : { std::variant_alternative_t<index, Model>::maxInternals.columns(components)... })
+			most = columns > most ? columns : most;
+		return most;
+	}
+} // namespace detail
+
+/* A material as the kernel uses it: density, Hooke's law, and a law with its parameters. */
+struct Law {
+	double density = 0; // [kg/m3]
+	Hooke  elastic;
+	Model  model;
+
+	template <class Work> decltype(auto) visit(Work&& work) const { return detail::visitModel(model, work); }
+
+	double stiffnessBound() const
+	{
+		return visit([](const auto& law) { return law.stiffnessBound(); });
+	}
+	bool keepsVolume() const
+	{
+		return visit([](const auto& law) { return law.keepsVolume(); });
+	}
+	bool hasTensionCutoff() const
+	{
+		return visit([](const auto& law) { return law.hasTensionCutoff(); });
+	}
 };
 
-/* Whether tr eps = (1 - 2 nu)/E tr sigma always: flow keeps the volume, and the compliance stays. */
-inline bool keepsVolume(const Law& law)
-{
-	return law.kind != Law::Kind::druckerPrager && !(law.kind == Law::Kind::boucWen && law.boucWen.stiffnessDegradation != 0);
-}
+/* The parameters of a law that is known to be an M. */
+template <class M> bool     is(const Law& law) { return std::holds_alternative<M>(law.model); }
+template <class M> M&       as(Law& law) { return std::get<M>(law.model); }
+template <class M> const M& as(const Law& law) { return std::get<M>(law.model); }
 
-/* Empty, or what is wrong with a law's parameters: attribute, value and remedy. */
+/* Empty, or the first fault of a law's parameters: attribute, value and remedy. */
 std::string validate(const Law& law);
 
-/* Internal variables of a point, columns of Points::internal: first tensors in the components of the stress state,
-which turn with the material, then scalars. Dissipative laws keep the back stress as first tensor, where they have any,
-and the accumulated plastic strain as first scalar. */
-struct Internals {
-	int tensors = 0, scalars = 0;
-
-	static Internals of(const Law& law)
-	{
-		switch (law.kind) {
-			case Law::Kind::elastic: break;
-			case Law::Kind::boucWen: return { law.boucWen.tensors(), law.boucWen.scalars() };
-			case Law::Kind::j2: return { 1, 1 };
-			case Law::Kind::druckerPrager: return { 0, 1 };
-		}
-		return {};
-	}
-	int columns(int components) const { return tensors * components + scalars; }
-	/* Of the laws that have most: two tensors and p; a tensor, p, energy and compliance, two stresses that are remembered. */
-	static constexpr int most(int components) { return components + (components > 4 ? components + 1 : 5); }
-};
+inline Internals Internals::of(const Law& law)
+{
+	return law.visit([](const auto& model) { return model.internals(); });
+}
+/* The greatest number of internal variables of a law in the list, in a stress state of so many components. */
+constexpr int maxInternals(int components) { return detail::maxInternals(components, std::make_index_sequence<std::variant_size_v<Model>>()); }
 
 /* sigma and the internal variables at the end of a step; sigma and all tensors have been turned with the material. Adds
 to response, where given. Compiled for the stress states that Law.cpp lists. */
 template <class S> void updateStress(const Law& law, const double* strain, double* sigma, double* internal, Response* response = nullptr);
 
-namespace detail {
-	/* Factor by which the elastic compliance has grown; internal(k) is the k-th internal variable. */
-	template <class S, class Get> double complianceGrowth(const Law& law, Get&& internal)
-	{
-		if (law.kind != Law::Kind::boucWen || !law.boucWen.degrades()) return 1;
-		return 1 + internal(law.boucWen.tensors() * S::N + 2);
-	}
-} // namespace detail
+/* The tangent d sigma/d epsilon of updateStress(), N x N and row-major; sigma and internal are those at the start of the step,
+turned with the material, and stay as they are. It is the derivative of the update itself, sub-steps included. */
+template <class S> void consistentTangent(const Law& law, const double* strain, const double* sigma, const double* internal, double* tangent);
 
 /* Energies a volume [J/m3] that a point holds and can give back. */
 template <class S> double elasticEnergy(const Law& law, const double* sigma, const double* internal)
 {
-	return .5 * detail::complianceGrowth<S>(law, [&](int k) { return internal[k]; }) * complianceProduct<S>(law.elastic, sigma);
+	const double growth = law.visit([&](const auto& model) { return model.template complianceGrowth<S>([&](int k) { return internal[k]; }); });
+	return .5 * growth * complianceProduct<S>(law.elastic, sigma);
 }
 template <class S> double hardeningEnergy(const Law& law, const double* internal)
 {
-	const double H = law.kind == Law::Kind::boucWen ? law.boucWen.hardening : law.kind == Law::Kind::j2 ? law.j2.hardening : 0;
-	return H > 0 ? S::mises2(internal) / (2 * H) : 0;
+	return law.visit([&](const auto& model) { return model.template hardeningEnergy<S>(internal); });
 }
 
 } // namespace yade::mpm

@@ -10,8 +10,8 @@ namespace yade::mpm {
 /* The stress update of a block of points that share a law. F advances by G = dt grad v, and where strains are large sigma and the
 internal tensors turn with the material, before the law. */
 template <class S> struct LawBlock {
-	Lanes            G[gradients<S>], F[S::dim * S::dim], sigma[S::N], internal[Internals::most(S::N)];
-	bool             respond = false; // whether somebody asks for
+	Lanes            G[gradients<S>], F[S::dim * S::dim], sigma[S::N], internal[maxInternals(S::N)];
+	bool             respond = false; // whether to compute
 	Responses<lanes> response;
 };
 /* Compiled once for each instruction set, for the stress states that LawLanes.cpp lists. */

@@ -5,15 +5,16 @@
 
 namespace yade::mpm {
 
-/* A law with one internal variable, written for one point as update(strain, sigma, p, dissipation), in every lane. Without
-branches and calls in it, the lanes become vectors. */
-template <class S, class Update, int W> void updatePoints(Update&& update, const Reals<W>* strain, Reals<W>* sigma, Reals<W>& p, Reals<W>& dissipation)
+/* Applies a law with one internal variable, written for one point as update(strain, sigma, p, dissipation), in every lane.
+Without branches and calls in the update, the lanes become vectors. */
+template <class S, class Update, int W, class T>
+void updatePoints(Update&& update, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>& p, Reals<W, T>& dissipation)
 {
 	forLanes<W>([&](int l) {
-		double e[S::N], s[S::N];
+		T e[S::N], s[S::N];
 		for (int k = 0; k < S::N; ++k)
 			e[k] = strain[k][l], s[k] = sigma[k][l];
-		double plastic = p[l], heat = dissipation[l];
+		T plastic = p[l], heat = dissipation[l];
 		update(e, s, plastic, heat);
 		for (int k = 0; k < S::N; ++k)
 			sigma[k][l] = s[k];

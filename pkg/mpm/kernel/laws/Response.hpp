@@ -5,13 +5,13 @@
 
 namespace yade::mpm {
 
-/* What an update tells of a step beside the new stress, for those who ask. */
+/* Secondary outputs of a stress update, beside the new stress. */
 struct Response {
-	double dissipation = 0; // energy turned into heat a volume [J/m3], >= 0; what isotropic hardening would store counts as heat
+	double dissipation = 0; // energy turned into heat a volume [J/m3], >= 0; energy that isotropic hardening would store counts as heat
 	double freeStrain  = 0; // strain increment of each stress-free normal component that the stress state leaves out
 };
-template <int W> struct Responses {
-	Reals<W> dissipation {}, freeStrain {};
+template <int W, class T = double> struct Responses {
+	Reals<W, T> dissipation {}, freeStrain {};
 };
 
 } // namespace yade::mpm

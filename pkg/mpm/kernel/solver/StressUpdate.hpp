@@ -179,7 +179,7 @@ private:
 		const Law&      law     = laws[std::size_t(P.material[p])];
 		const Internals layout  = Internals::of(law);
 		const int       columns = layout.columns(N);
-		double          sigma[N], internal[Internals::most(N)], F[dim * dim];
+		double          sigma[N], internal[maxInternals(N)], F[dim * dim];
 		for (int k = 0; k < N; ++k)
 			sigma[k] = P.stress[std::size_t(k)][p];
 		for (int k = 0; k < columns; ++k)

@@ -29,39 +29,6 @@ template <class T> struct IsVector : std::false_type {
 template <class T> struct IsVector<std::vector<T>> : std::true_type {
 };
 
-/* Sequences of the plugin's own objects. YADE registers conversions for vectors of its own classes, numbers and strings,
-nobody does for vectors of shared_ptr<ClassOfThePlugin>. */
-template <class Vector> struct VectorConverter {
-};
-template <class T> struct VectorConverter<std::vector<boost::shared_ptr<T>>> {
-	using Vector = std::vector<boost::shared_ptr<T>>;
-	static PyObject* convert(const Vector& vector)
-	{
-		boost::python::list list;
-		for (const auto& item : vector)
-			list.append(item);
-		return boost::python::incref(list.ptr());
-	}
-	static void* convertible(PyObject* object) { return PyList_Check(object) || PyTuple_Check(object) ? object : nullptr; }
-	static void  construct(PyObject* object, boost::python::converter::rvalue_from_python_stage1_data* data)
-	{
-		const boost::python::object sequence { boost::python::handle<>(boost::python::borrowed(object)) };
-		Vector                      items;
-		for (boost::python::ssize_t i = 0, n = boost::python::len(sequence); i < n; i++)
-			items.push_back(boost::python::extract<boost::shared_ptr<T>>(sequence[i])());
-		void* const storage = reinterpret_cast<boost::python::converter::rvalue_from_python_storage<Vector>*>(data)->storage.bytes;
-		data->convertible   = new (storage) Vector(std::move(items));
-	}
-	static void registerOnce()
-	{
-		const auto* known = boost::python::converter::registry::query(boost::python::type_id<Vector>());
-		if (!known || !known->m_to_python) boost::python::to_python_converter<Vector, VectorConverter>();
-		if (!known || !known->rvalue_chain) boost::python::converter::registry::push_back(&convertible, &construct, boost::python::type_id<Vector>());
-	}
-};
-template <class T> void registerConverter(const T*) {}
-template <class T> void registerConverter(const std::vector<boost::shared_ptr<T>>*) { VectorConverter<std::vector<boost::shared_ptr<T>>>::registerOnce(); }
-
 template <class T> void setAttribute(T& attribute, const boost::python::object& value) { attribute = boost::python::extract<T>(value)(); }
 
 /* As in YADE, a matrix or vector is handed out by reference (x.gravity[2] = -9.81 works) unless it is read-only; everything
@@ -73,7 +40,6 @@ void exposeAttribute(Class& pythonClass, const char* name, T Self::*member, cons
 	if constexpr (flags & Attr::hidden)
 		return;
 	else {
-		registerConverter(static_cast<const T*>(nullptr));
 		const std::string doc    = docAndType + " :yattrflags:`" + std::to_string(flags) + "` ";
 		const py::object  getter = [&] {
                         if constexpr (IsEigen<T>::value && !(flags & Attr::readonly))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Runs when YADE loads the plugin, before any class registers: makes sure that the running YADE is the one that the plugin
-was built for, and lets Python find the plugin's own modules as parts of the package yade. */
+was built for, and lets Python find the plugin's own modules as parts of the package yade. Compiled against the declarations
+in pkg/yade or against YADE's own headers, like the rest of the plugin. */
 #include <PluginLoad.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ was built for, and lets Python find the plugin's own modules as parts of the pac
 #include <core/PartialEngine.hpp>
 #include <core/Scene.hpp>
 #include <core/TimeStepper.hpp>
+#include <cstring>
 #include <dlfcn.h>
 #include <iostream>
 #include <link.h>
@@ -37,6 +39,26 @@ namespace {
 	};
 
 	std::string symbolOfVtable(const std::string& className) { return "_ZTVN4yade" + std::to_string(className.size()) + className + "E"; }
+
+	/* A pointer to a virtual member function holds one more than the place of the function in the vtable, in bytes (the
+	Itanium C++ ABI). */
+	template <class Function> std::size_t placeInVtable(Function function)
+	{
+		static_assert(sizeof(Function) == 2 * sizeof(std::ptrdiff_t), "not a pointer to a member function of the Itanium C++ ABI");
+		std::ptrdiff_t raw[2];
+		std::memcpy(raw, &function, sizeof raw);
+		return static_cast<std::size_t>(raw[0] - 1);
+	}
+
+	/* The vtable that the headers describe: two words and one for each virtual function. */
+	template <class Function> std::size_t bytesOfVtable(Function last) { return 2 * sizeof(void*) + placeInVtable(last) + sizeof(void*); }
+
+	/* In a class that is also an Indexable, incrementMaxCurrentlyUsedClassIndexOfKin(), which is protected, comes after
+	getMaxCurrentlyUsedClassIndexOfKin(), and the base Indexable adds a table of its own: two words and its seven functions. */
+	template <class Function> std::size_t bytesOfIndexableVtable(Function lastButOne)
+	{
+		return bytesOfVtable(lastButOne) + sizeof(void*) + 9 * sizeof(void*);
+	}
 
 	/* The allocator rounds a size up, and may hand out a somewhat larger block that was left over: the smallest of many tells
 	how much was asked for. make() returns a new block each time. */
@@ -123,23 +145,23 @@ namespace {
 
 const std::vector<ExpectedClass>& expectedClasses()
 {
-	/* A vtable holds two words and one per virtual function; a second base with virtual functions adds a table of its own.
-	Looking up its size takes the dynamic linker a search through all symbols of a library, so that a class stands for its bases. */
+	/* Looking up the size of a vtable takes the dynamic linker a search through all symbols of a library, so that a class
+	stands for its bases. */
 	static const std::vector<ExpectedClass> classes = {
 		{ "Engine", sizeof(Engine), 0 },
 		{ "GlobalEngine", sizeof(GlobalEngine), 0 },
 		{ "PartialEngine", sizeof(PartialEngine), 0 },
-		{ "PeriodicEngine", sizeof(PeriodicEngine), 16 * 8 },
-		{ "TimeStepper", sizeof(TimeStepper), 17 * 8 },
-		{ "Scene", sizeof(Scene), 14 * 8 },
-		{ "Body", sizeof(Body), 15 * 8 },
+		{ "PeriodicEngine", sizeof(PeriodicEngine), bytesOfVtable(&PeriodicEngine::action) },
+		{ "TimeStepper", sizeof(TimeStepper), bytesOfVtable(&TimeStepper::computeTimeStep) },
+		{ "Scene", sizeof(Scene), bytesOfVtable(&Scene::pyHandleCustomCtorArgs) },
+		{ "Body", sizeof(Body), bytesOfVtable(&Body::userForcedDisplacementRedrawHook) },
 		{ "BodyContainer", sizeof(BodyContainer), 0 },
-		{ "State", sizeof(State), 28 * 8 },
+		{ "State", sizeof(State), bytesOfIndexableVtable(&State::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "Material", sizeof(Material), 0 },
 		{ "ElastMat", sizeof(ElastMat), 0 },
-		{ "FrictMat", sizeof(FrictMat), 30 * 8 },
+		{ "FrictMat", sizeof(FrictMat), bytesOfIndexableVtable(&FrictMat::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "Shape", sizeof(Shape), 0 },
-		{ "Sphere", sizeof(Sphere), 28 * 8 },
+		{ "Sphere", sizeof(Sphere), bytesOfIndexableVtable(&Sphere::getMaxCurrentlyUsedClassIndexOfKin) },
 		{ "EnergyTracker", sizeof(EnergyTracker), 0 },
 	};
 	return classes;
@@ -200,7 +222,7 @@ bool pluginFitsRunningYade()
 		std::string refusal;
 		if (!reason.empty()) {
 			refusal = "yade-mpm: the plugin does not load because " + reason
-				  + "; rebuild it against the installed YADE " YADE_PLUGIN_BUILT_FOR ", or port pkg/yade (see its README) to this one.";
+				  + "; build it anew for this one, with its source tree if it is no release that pkg/yade declares (see its README).";
 			std::cerr << refusal << std::endl;
 		}
 		extendPackagePath(refusal);

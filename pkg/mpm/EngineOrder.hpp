@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <core/Engine.hpp>
+#include <vector>
+
+namespace yade {
+
+/* Whether the order of O.engines can work: no engine may apply forces that ForceResetter clears before MpmEngine runs, and the
+engines that move bodies must use one time step. */
+class EngineOrder {
+public:
+	/* Checks the order around self, again only after the list has changed; throws if forces would be lost. */
+	void check(const std::vector<shared_ptr<Engine>>& engines, const Engine& self);
+	/* Whether a TimeStepper sets O.dt as well; setsStep: MpmEngine does. Throws if MpmEngine and NewtonIntegrator would move points and
+	grains by different steps, since a contact's impulses on the two would then differ. */
+	bool checkClocks(bool setsStep) const;
+
+	/* Whether contacts are computed. */
+	bool hasContacts() const;
+
+private:
+	enum class Role { other, self, stepper, newton, loop };
+	struct Entry { // of O.engines at the last check
+		const Engine* engine;
+		bool          dead;
+		Role          role;
+	};
+	std::vector<Entry> m_checked;
+};
+
+} // namespace yade

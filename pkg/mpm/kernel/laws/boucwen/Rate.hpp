@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "Reloading.hpp"
+
+namespace yade::mpm::detail {
+
+/* H1 H2 below this times the tolerance counts as no flow. */
+constexpr double leastFlow = 3e-4;
+
+inline bool isHalfOrWhole(double n) { return 2 * n <= 2048 && 2 * n == int(2 * n); }
+
+/* z^n; n is a whole or half number in most scenes, which avoids the call of pow. Up to `small`, pow may give 0. */
+template <int W, class T> void power(const Reals<W, T>& base, double n, double small, Reals<W, T>& result)
+{
+	using std::pow, std::sqrt;
+	if (!isHalfOrWhole(n)) {
+		for (int l = 0; l < W; ++l)
+			result[l] = base[l] > small ? pow(base[l], n) : T(0);
+		return;
+	}
+	const int   twice = int(2 * n);
+	const bool  half  = twice & 1;
+	Reals<W, T> z     = base;
+	forLanes<W>([&](int l) { result[l] = half ? sqrt(z[l]) : T(1); });
+	for (int bits = twice >> 1; bits; bits >>= 1) {
+		if (bits & 1) forLanes<W>([&](int l) { result[l] *= z[l]; });
+		forLanes<W>([&](int l) { z[l] *= z[l]; });
+	}
+}
+
+/* The fraction of the loading that flows, with the options: H1 H2 from H1, in place. */
+template <class S, int W, class T>
+void flowRatio(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, const Reloading<S, W, T>& reloading, const Reals<W, T>& f,
+	const Reals<W, T>& radius, const Reals<W, T>& mDe, Reals<W, T>& H1)
+{
+	using std::exp, std::expm1;
+	using Y               = BoucWenVector<S, true>;
+	constexpr int N       = S::N;
+	const double  loading = law.beta + law.gamma, unloading = law.beta - law.gamma;
+	if (law.paper()) {
+		forLanes<W>([&](int l) {
+			T product = 0;
+			for (int k = 0; k < N; ++k)
+				product += (S::voigtIndex[k] < 3 ? 1 : 2) * y[Y::strain + k][l] * De[k][l];
+			H1[l] *= product > 0 ? loading : unloading;
+		});
+		return;
+	}
+	forLanes<W>([&](int l) { H1[l] *= 1 + law.strengthDegradation * y[Y::e][l]; });
+	Reals<W, T> loads = H1;
+	if (law.remembers()) {
+		Reals<W, T> fraction, factor;
+		forLanes<W>([&](int l) { fraction[l] = reloading.loadedFraction(f, l); });
+		if (std::isinf(law.reloading))
+			forLanes<W>([&](int l) { factor[l] = fraction[l] < 1 ? 0 : 1; });
+		else
+			power(fraction, law.reloading, 0, factor);
+		forLanes<W>([&](int l) { loads[l] *= factor[l]; });
+	}
+	if (law.pinching != 0) // Baber & Noori's factor on the loading stiffness 1 - H1, with the slip along a
+		for (int l = 0; l < W; ++l) {
+			const T off = (f[l] / radius[l] - law.pinchingLevel) / law.pinchingWidth;
+			const T h   = 1 + law.pinching * expm1(-law.pinchingRate * y[Y::e][l]) * exp(-off * off);
+			loads[l]    = 1 - h * (1 - loads[l]);
+		}
+	forLanes<W>([&](int l) { H1[l] = mDe[l] > 0 ? (reloading.elastic[l] != 0 ? T(0) : loads[l]) : H1[l] * unloading; });
+}
+
+/* dy over a strain increment and the elastic stress De that belongs to it, and the sign of loading. With m = M xi = f a:
+   lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio.
+Up to z = f/sigma_y = small, the flow is known to be none. */
+template <class S, bool options, int W, class T>
+void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloading<S, W, T>& reloading, const Reals<W, T>* y, const Reals<W, T>* strain,
+	const Reals<W, T>* De, Reals<W, T>* dy, Reals<W, T>& mDe)
+{
+	using std::sqrt, std::abs;
+	using Y          = BoucWenVector<S, options>;
+	constexpr int N  = S::N;
+	const double  sy = law.yieldStress, inverseYield = 1 / sy, least = leastFlow * law.tolerance, loading = law.beta + law.gamma,
+		     unloading = law.beta - law.gamma;
+	Reals<W, T> radius, slope, f, z, H;
+	if constexpr (options) {
+		for (int l = 0; l < W; ++l)
+			radius[l] = law.isotropic.radius(sy, y[Y::p][l]), slope[l] = law.isotropic.slope(y[Y::p][l]);
+		forLanes<W>([&](int l) {
+			for (int k = 0; k < N; ++k)
+				dy[Y::strain + k][l] = (S::voigtIndex[k] < 3 ? 1 : .5) * strain[k][l];
+			dy[Y::e][l] = dy[Y::compliance][l] = 0;
+		});
+	}
+	auto softeningOf = [&](int l) -> T {
+		if constexpr (options) return 1 / (1 + y[Y::compliance][l]);
+		return 1.;
+	};
+	forLanes<W>([&](int l) {
+		T       xi[N], m[N], de[N];
+		const T softening = softeningOf(l);
+		backStressFree<S>(y, l, xi);
+		for (int k = 0; k < N; ++k)
+			de[k] = softening * De[k][l], dy[k][l] = de[k], dy[Y::eta + k][l] = 0;
+		dy[Y::p][l] = dy[Y::dissipation][l] = 0;
+		S::normal(xi, 1, m);
+		mDe[l] = dot<S>(m, de);
+		f[l]   = sqrt(S::mises2(xi));
+		z[l]   = options ? f[l] / radius[l] : f[l] * inverseYield;
+	});
+	power(z, law.n, small, H);
+	if constexpr (options)
+		flowRatio(law, y, De, reloading, f, radius, mDe, H);
+	else
+		forLanes<W>([&](int l) { H[l] *= mDe[l] > 0 ? loading : unloading; });
+	// no direction at f = 0; elastic within the tolerance
+	auto flows = [&](int l) { return (z[l] > 1e-12) & (abs(H[l]) > least); };
+	if (!anyLane<W>(flows)) return;
+
+	const double unit     = C.young / (sy * sy);
+	const bool   degrades = law.degrades();
+	forLanes<W>([&](int l) {
+		T          xi[N], m[N], Dm[N], b[N];
+		const bool flow      = flows(l);
+		const T    softening = softeningOf(l), hardening = options ? law.hardening + slope[l] : T(law.hardening), f2 = f[l] * f[l];
+		backStressFree<S>(y, l, xi);
+		S::normal(xi, 1, m), S::elastic(C, m, Dm), S::backStressDirection(xi, b);
+		const T q = flow ? H[l] * mDe[l] / (flow ? softening * dot<S>(m, Dm) + hardening * f2 : T(1)) : T(0);
+		for (int k = 0; k < N; ++k)
+			dy[k][l] -= q * softening * Dm[k], dy[Y::eta + k][l] = q * law.hardening * b[k];
+		dy[Y::p][l] = q * f[l], dy[Y::dissipation][l] = q * f2;
+		if constexpr (options) {
+			// the compliance may grow by no more than the plastic work pays for
+			T sigma[N];
+			for (int k = 0; k < N; ++k)
+				sigma[k] = y[k][l];
+			const T heat = degrades ? q * f2 : T(0), stored = complianceProduct<S>(C, sigma);
+			const T most  = stored > 0 ? 2 / (stored > 0 ? stored : T(1)) : T(0);
+			const T grows = std::min<T>(law.stiffnessDegradation * unit, most) * heat;
+			dy[Y::e][l] = unit * heat, dy[Y::compliance][l] = grows;
+			dy[Y::dissipation][l] = std::max<T>(0., q * f2 - .5 * grows * stored);
+		}
+	});
+}
+
+} // namespace yade::mpm::detail

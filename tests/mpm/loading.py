@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Loading: a scene of another version and a damaged one are refused in one sentence, and the program goes on; a scene that is loaded and
+then changed takes the same steps as one that was changed without loading, bit for bit.
+"""
+import os
+import re
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
+from common import *
+
+folder = tempfile.TemporaryDirectory()
+path = lambda name: os.path.join(folder.name, name)
+
+
+def scene():
+	O.reset()
+	O.materials.append(BoucWenMat(label='steel', young=1e6, poisson=.3, density=1000, yieldStress=1e4, n=5, tangentRatio=.05))
+	mpm.fill(((0, 0), (1, 1)), spacing=.25, thickness=.1, material='steel', velocity=(0, -3, 0))
+	mpm.fill(((0, 1.5), (.5, 2)), spacing=.25, thickness=.1, material=elastic(), bodies=False)
+	O.engines = [ForceResetter(), MpmEngine(cellSize=.5, walls=[MpmWall(normal=(0, 1, 0))]), MpmVtkRecorder(fileName=path('a-'), iterPeriod=10, recorders=['id'])]
+	O.dt = .4*mpm.criticalTimeStep()
+	O.run(30, True)
+	O.save(path('good.xml'))
+	return open(path('good.xml')).read()
+
+
+def load(text):
+	with open(path('bad.xml'), 'w') as file: file.write(text)
+	O.load(path('bad.xml'))
+
+
+def message(call):
+	try: call()
+	except Exception as fault: return '%s: %s' % (type(fault).__name__, fault)
+	return ''
+
+
+good = scene()
+right = state()
+
+# ---- versions --------------------------------------------------------------------------------------------------------------
+here = mpm.__version__
+major, minor, patch = here.split('.')
+check('a saved scene holds the version', good.count('<version>yade-mpm %s</version>' % here) >= 2)
+load(good.replace('yade-mpm ' + here, 'yade-mpm %s.%s.%d' % (major, minor, int(patch) + 7)))
+same('a scene of another patch release loads', state()['position'], right['position'])
+for version in '%d.0.0' % (int(major) + 1), '%s.%d.0' % (major, int(minor) + 1), '0.1.0', '':
+	said = message(lambda: load(good.replace('yade-mpm ' + here, 'yade-mpm ' + version)))
+	check('a scene of version %r is refused in one sentence' % version, 'saved by yade-mpm ' + version in said and here in said and 'load it with that version' in said and '\n' not in said, said)
+said = message(lambda: load(re.sub(r'<savedBy>\s*<version>[^<]*</version>\s*</savedBy>', '', good)))
+check('a scene from before there were versions', 'saved by yade-mpm before 1.0.0' in said and 'load it with that version' in said, said)
+
+# ---- damage: every column, shorter, longer, empty; indices; the program goes on ----------------------------------------------
+begin = re.search('<points class_id[^>]*>', good).start()
+
+
+def column(tag, start=begin, end=None):
+	"""Where the first list of numbers of <tag> lies, and its numbers."""
+	m = re.compile('<%s(?: [^>]*)?>' % tag).search(good, start)
+	if not m: return None
+	close = good.index('</%s>' % tag, m.end())
+	n = re.compile(r'<count>(\d+)</count>\s*<item_version>0</item_version>((?:\s*<item>[^<]*</item>)+)').search(good, m.end(), close)
+	return (n.start(), n.end(), re.findall('<item>([^<]*)</item>', n.group(2))) if n else None
+
+
+def put(where, numbers):
+	return good[:where[0]] + '<count>%d</count><item_version>0</item_version>' % len(numbers) + ''.join('<item>%s</item>' % n for n in numbers) + good[where[1]:]
+
+
+def refused(what, text, *parts):
+	said = message(lambda: load(text))
+	check('%s: refused, by name' % what, all(part in said for part in parts + ('the saved scene is damaged', 'load another copy')) and '\n' not in said, said or 'loaded')
+	check('%s: the program goes on' % what, len(O.bodies) == 0 and O.iter == 0)
+
+
+for tag in 'id', 'material', 'mass', 'volume0', 'size', 'thickness', 'position', 'velocity', 'stress', 'internal', 'deformation':
+	where = column(tag)
+	name = 'MpmPoints.' + ('material' if tag == 'id' else tag)
+	for how, numbers in ('empty', []), ('shorter', where[2][:-1]), ('longer', where[2] + where[2][-1:]):
+		refused('%s %s' % (tag, how), put(where, numbers), name, 'for %d points' % len(numbers) if tag == 'id' else 'points')
+for tag, values in ('material', ('-1', '2', '99999')), ('id', ('1', '-2147483648')):
+	for value in values:
+		where = column(tag)
+		if value == '-2147483648': refused('id %s' % value, put(where, where[2][:-1] + [value]), 'nextBodyless')
+		else: refused('%s %s' % (tag, value), put(where, [value] + where[2][1:]), 'MpmPoints.', 'material of point' if tag == 'material' else 'two points have the id 1')
+start = good.index('<continuity')
+for tag, bound in ('ids', None), ('neighbours', 20), ('dX', None), ('footings', 20), ('walls', 1), ('depths', None):
+	where = column(tag, good.index('<' + tag, start))
+	refused('continuity.%s longer' % tag, put(where, where[2] + where[2][-1:]), 'MpmPoints.continuity.')
+	if bound: refused('continuity.%s out of range' % tag, put(where, ['99999'] + where[2][1:]), 'MpmPoints.continuity.' + tag, '99999')
+refused('nextBodyless', re.sub('<nextBodyless>[^<]*<', '<nextBodyless>3<', good), 'MpmPoints.nextBodyless = 3')
+refused('untilLook', re.sub('<untilLook>[^<]*<', '<untilLook>1000000000000<', good), 'MpmEngine.untilLook')
+where = column('times', good.index('<times'))
+refused('times of the recorder', put(where, where[2][1:]), 'MpmVtkRecorder.times')
+
+# numbers that are not finite: of the points' own columns, found before the first step
+for tag in 'mass', 'volume0', 'size', 'stress', 'internal', 'deformation':
+	for value in 'nan', 'inf', '-inf':
+		where = column(tag)
+		load(put(where, [value] + where[2][1:]))
+		said = message(lambda: O.run(1, True))
+		check('%s %s: refused before the first step' % (tag, value), 'material point' in said and tag.rstrip('0') in said and value in said and O.iter == 30, said or 'ran')
+where = column('id')
+load(put(where, ['99999'] + where[2][1:]))
+equal('a point whose body there is not is one whose body has been erased', len(mpm.array('id')), 20)
+O.run(1, True)
+equal('and leaves with the next step', len(mpm.array('id')), 19)
+load(good)
+for name in right: same('the whole scene: ' + name, state()[name], right[name])
+O.run(10, True)
+
+# ---- loaded and changed, changed without loading ----------------------------------------------------------------------------
+def twins(what, change, steps=40, compare=True, **how):
+	"""The same change before and after loading: same steps of time, same state, same refusal at the same step."""
+	ends = []
+	for loaded in False, True:
+		ids, grid = block(velocity=(0, -3, 0), **dict(dict(analysis='planeStrain', walls=[MpmWall(normal=(0, 1, 0))]), **how))
+		O.run(25, True)
+		if loaded:
+			O.saveTmp()
+			O.loadTmp()
+		change(ids, [e for e in O.engines if isinstance(e, MpmEngine)][0])
+		said = message(lambda: O.run(steps, True))
+		ends.append((said, O.iter, O.time, O.dt, state()))
+	one, two = ends
+	equal(what + ': same steps, same refusal', two[:4], one[:4])
+	for name in one[4]: same('%s: %s' % (what, name), two[4][name], one[4][name])
+
+
+twins('no change', lambda ids, grid: None)
+for bodies in True, False:
+	twins('points added, bodies=%s' % bodies, lambda ids, grid: mpm.fill(((3, 0), (3.5, .5)), spacing=.25, thickness=.1, material='elastic', bodies=bodies), bodies=bodies)
+for what, change in ('cellSize', lambda ids, grid: setattr(grid, 'cellSize', .4)), ('shape', lambda ids, grid: setattr(grid, 'shape', 'linear')), \
+		('scheme', lambda ids, grid: setattr(grid, 'scheme', 'USL')), ('wall', lambda ids, grid: setattr(grid.walls[0], 'kind', 'slip')), \
+		('a second wall, which stretches the cells', lambda ids, grid: setattr(grid, 'walls', grid.walls + [MpmWall(normal=(0, -1, 0), origin=(0, 1.2, 0), kind='slip')])):
+	twins(what + ' changed', change)
+	twins(what + ' changed, where the engine sets the step', change, timeStepSafety=.4)
+twins('a larger step, refused', lambda ids, grid: setattr(O, 'dt', 4*O.dt))
+twins('a step near the limit that grows shorter', lambda ids, grid: None, courant=.98, steps=200)
+twins('points erased', lambda ids, grid: [O.bodies.erase(i) for i in ids[:3]])
+
+finish()
