@@ -45,12 +45,23 @@ namespace {
 		return law;
 	}
 
-	mpm::DruckerPrager modelOf(const DruckerPragerMat& m)
+	mpm::DruckerPrager modelOf(const DruckerPragerMat& m, const std::string& name)
 	{
 		mpm::DruckerPrager law;
 		law.cohesion         = m.cohesion;
 		law.internalFriction = m.internalFriction;
 		law.dilatancy        = m.dilatancy;
+		using Match          = mpm::DruckerPrager::Match;
+		if (m.match == "compression")
+			law.match = Match::compression;
+		else if (m.match == "extension")
+			law.match = Match::extension;
+		else if (m.match == "planeStrain")
+			law.match = Match::planeStrain;
+		else if (m.match == "inscribed")
+			law.match = Match::inscribed;
+		else
+			refuse(name, "match", "'" + m.match + "'", "choose 'compression', 'extension', 'planeStrain' or 'inscribed'");
 		return law;
 	}
 
@@ -80,7 +91,7 @@ mpm::Law lawOf(const Material& material)
 	else if (const auto* j2 = dynamic_cast<const J2Mat*>(&material))
 		law.model = modelOf(*j2, name);
 	else if (const auto* cone = dynamic_cast<const DruckerPragerMat*>(&material))
-		law.model = modelOf(*cone);
+		law.model = modelOf(*cone, name);
 	if (const std::string fault = mpm::validate(law); !fault.empty()) throw std::runtime_error(name + "." + fault);
 	return law;
 }

@@ -60,10 +60,11 @@ REGISTER_SERIALIZABLE(J2Mat);
 class DruckerPragerMat : public FrictMat {
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DruckerPragerMat, FrictMat, "Perfectly plastic Drucker-Prager material with dilatancy and return to the apex. Its cone passes through the compression corners of Mohr-Coulomb's pyramid. Used by MpmEngine and mpm.drive; in contacts it is a FrictMat, whose frictionAngle is that of contacts and independent of internalFriction.",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DruckerPragerMat, FrictMat, "Perfectly plastic Drucker-Prager material. Its cone has Mohr-Coulomb's strength only in the kind of state that match names; in plane strain choose match='planeStrain', because the default cone mobilises 43.9 degrees there if internalFriction is 30 degrees. With dilatancy and return to the apex. Used by MpmEngine and mpm.drive; in contacts it is a FrictMat, whose frictionAngle is that of contacts and independent of internalFriction.",
 		((Real, cohesion, 0, , "Cohesion c >= 0 [Pa]. Cohesion and internalFriction must not both be 0, their defaults."))
 		((Real, internalFriction, 0, , "Angle of internal friction phi, from 0 to below 1.57 [rad]."))
 		((Real, dilatancy, 0, , "Angle of dilatancy psi, from 0 to internalFriction [rad]."))
+		((std::string, match, "compression", , "State in which the cone has Mohr-Coulomb's strength: 'compression' or 'extension', the triaxial corners; 'planeStrain', the limit state of plane strain for the given dilatancy; 'inscribed', the cone inside the pyramid. Equations in kernel/laws/DruckerPrager.hpp."))
 		,
 		createIndex();
 		,

@@ -2,6 +2,7 @@
 // Drucker & Prager's law at one point: closed forms of soil mechanics, cone, apex, energy.
 #include "LawPoint.hpp"
 #include "kernel/PointDriver.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
 
 using namespace yade::mpm;
@@ -148,6 +149,36 @@ TEST(DruckerPragerLaw, RefusesInadmissibleParameters)
 	EXPECT_EQ(validate(soil(1, 2)).rfind("internalFriction", 0), 0u);
 	EXPECT_EQ(validate(soil(1, .3, .4)).rfind("dilatancy", 0), 0u);
 	EXPECT_EQ(validate(soil(0, 0, 0)).rfind("cohesion", 0), 0u);
+}
+
+/* The angle and cohesion mobilised in the state that the cone is matched to are those given, and the inscribed cone exceeds them nowhere. Limit states after
+ * large strain, with and without dilatancy. */
+TEST(DruckerPragerLaw, MatchesTheStateThatItNames)
+{
+	using Match       = DruckerPrager::Match;
+	const auto excess = [](Match match, double phi, double psi, std::array<double, 3> direction) {
+		Law law                      = soil(cohesion, phi, psi);
+		as<DruckerPrager>(law).match = match;
+		LawPoint<PlaneStrain> point(law);
+		point.strain({ -2e-3, -2e-3, -2e-3, 0 });
+		for (int i = 0; i < 400; ++i)
+			point.strain({ 1e-3 * direction[0], 1e-3 * direction[1], 1e-3 * direction[2], 0 });
+		double s[3] = { -point.sigma[0], -point.sigma[1], -point.sigma[2] };
+		std::sort(s, s + 3);
+		// shear stress over Mohr-Coulomb's strength
+		return (s[2] - s[0]) / (2 * cohesion * std::cos(phi) + (s[2] + s[0]) * std::sin(phi));
+	};
+	for (const double phi : { .3, .5236, .7 })
+		for (const double psi : { 0., .1, .3 }) {
+			const std::array<double, 3> plane { 1, -1, 0 }, compression { .5, -1, .5 }, extension { 1, -.5, -.5 };
+			EXPECT_NEAR(excess(Match::planeStrain, phi, psi, plane), 1, 1e-6) << phi << ", " << psi;
+			EXPECT_NEAR(excess(Match::compression, phi, psi, compression), 1, 1e-6) << phi << ", " << psi;
+			EXPECT_NEAR(excess(Match::extension, phi, psi, extension), 1, 1e-6) << phi << ", " << psi;
+			EXPECT_GT(excess(Match::compression, phi, psi, plane), 1.05);
+			for (const auto& way : { plane, compression, extension })
+				EXPECT_LE(excess(Match::inscribed, phi, psi, way), 1 + 1e-6) << phi << ", " << psi;
+		}
+	EXPECT_NEAR(excess(Match::inscribed, .5, .5, { 1, -1, 0 }), 1, 1e-6); // associated flow: the plane strain cone
 }
 
 } // namespace
