@@ -94,8 +94,8 @@ struct DruckerPrager : LawDefaults {
 
 		// no branches, so that lanes can take both ways
 		const bool flows = F > 0, apex = flows & !(q > 3 * C.shear * along);
-		const T    dp    = flows ? apex ? q / (3 * C.shear) : along : T(0);
-		const T    dP    = apex ? P - k / eta : bulk * etaPsi * dp;
+		const T    dp     = flows ? apex ? q / (3 * C.shear) : along : T(0);
+		const T    dP     = apex ? P - k / eta : bulk * etaPsi * dp;
 		const T    shrink = apex ? T(0) : 1 - 3 * C.shear * dp / (flows ? q : T(1));
 		for (int c = 0; c < S::N; ++c)
 			sigma[c] = flows ? shrink * (sigma[c] - (c < 3 ? P : T(0))) + (c < 3 ? P - dP : T(0)) : sigma[c];

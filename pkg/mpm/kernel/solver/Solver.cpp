@@ -33,7 +33,7 @@ std::unique_ptr<Solver> makeSolver(Analysis analysis, ShapeKind shape, double ce
 
 template <class S> Energies storedEnergyOf(const Law& law, const Points& points, std::size_t p)
 {
-	double sigma[S::N], internal[maxInternals(S::N)];
+	double sigma[S::N], internal[maxInternals(S::N)] {};
 	for (std::size_t k = 0; k < std::size_t(S::N); ++k)
 		sigma[k] = points.stress[k][p];
 	for (std::size_t k = 0; k < points.internal.size(); ++k)
