@@ -41,105 +41,66 @@ namespace {
 	// clang-format off
 #define PROBE(cls, name)                                                                                                                                       \
 	{                                                                                                                                                      \
-#		cls "." #                name, access(&cls::name)                                                                                             \
+		#cls "." #name, access(&cls::name)                                                                                                             \
 	}
 
 	const std::map<std::string, Access>& table()
 	{
 		static const std::map<std::string, Access> accesses = {
-			PROBE(Engine, dead),
-			PROBE(Engine, ompThreads),
-			PROBE(Engine, label),
+			PROBE(Engine, dead), PROBE(Engine, ompThreads), PROBE(Engine, label),
 			PROBE(PartialEngine, ids),
-			PROBE(TimeStepper, active),
-			PROBE(TimeStepper, timeStepUpdateInterval),
-			PROBE(PeriodicEngine, virtPeriod),
-			PROBE(PeriodicEngine, realPeriod),
-			PROBE(PeriodicEngine, iterPeriod),
-			PROBE(PeriodicEngine, nDo),
-			PROBE(PeriodicEngine, initRun),
-			PROBE(PeriodicEngine, firstIterRun),
-			PROBE(PeriodicEngine, virtLast),
-			PROBE(PeriodicEngine, realLast),
-			PROBE(PeriodicEngine, iterLast),
-			PROBE(PeriodicEngine, nDone),
-			PROBE(State, vel),
-			PROBE(State, mass),
-			PROBE(State, angVel),
-			PROBE(State, angMom),
-			PROBE(State, inertia),
-			PROBE(State, refPos),
-			PROBE(State, refOri),
-			PROBE(State, isDamped),
-			PROBE(State, densityScaling),
-			{ "State.pos", { [](py::object o) { return py::object(Vector3r(py::extract<State&>(o)().pos)); },
-					       [](py::object o, py::object v) {
-						       State&state    = py::extract<State&>(o);
-						       state.pos    = py::extract<Vector3r>(v)();
-                                               } } },
-			{ "State.ori", { [](py::object o) { return py::object(Quaternionr(py::extract<State&>(o)().ori)); },
-					       [](py::object o, py::object v) {
-						       State&state    = py::extract<State&>(o);
-						       state.ori    = py::extract<Quaternionr>(v)();
-                                               } } },
-			{ "State.se3", { [](py::object o) {
-						const Se3r&se3      = py::extract<State&>(o)().se3;
-						return py::object(py::make_tuple(se3.position, se3.orientation));
-					},
-					       [](py::object o, py::object v) {
-						       State&state    = py::extract<State&>(o);
-						       Se3r&se3      = state.se3;
-						       se3.position = py::extract<Vector3r>(v[0])();
-						       se3.orientation= py::extract<Quaternionr>(v[1])();
-					       } } },
-			{ "State.blockedDOFs", { [](py::object o) {
-							std::stringdofs;
-							for (int axis = 0; axis < 6; axis++)
-								if (py::extract<State&>(o)().blockedDOFs & State::axisDOF(axis % 3, axis > 2))
-									dofs += "xyzXYZ"[axis];
-							return py::object(dofs);
-						},
-						       [](py::object o, py::object v) {
-							       State&state    = py::extract<State&>(o);
-							       state.blockedDOFs= State::DOF_NONE;
-							       for (const char dof : std::string(py::extract<std::string>(v)()))
-								       state.blockedDOFs |= 1u << std::string("xyzXYZ").find(dof);
-						       } } },
-			PROBE(Material, id),
-			PROBE(Material, label),
-			PROBE(Material, density),
-			PROBE(ElastMat, young),
-			PROBE(ElastMat, poisson),
+			PROBE(TimeStepper, active), PROBE(TimeStepper, timeStepUpdateInterval),
+			PROBE(PeriodicEngine, virtPeriod), PROBE(PeriodicEngine, realPeriod), PROBE(PeriodicEngine, iterPeriod),
+			PROBE(PeriodicEngine, nDo), PROBE(PeriodicEngine, initRun), PROBE(PeriodicEngine, firstIterRun),
+			PROBE(PeriodicEngine, virtLast), PROBE(PeriodicEngine, realLast), PROBE(PeriodicEngine, iterLast), PROBE(PeriodicEngine, nDone),
+			PROBE(State, vel), PROBE(State, mass), PROBE(State, angVel), PROBE(State, angMom), PROBE(State, inertia), PROBE(State, refPos),
+			PROBE(State, refOri), PROBE(State, isDamped), PROBE(State, densityScaling),
+			{ "State.pos",
+			  { [](py::object o) { return py::object(Vector3r(py::extract<State&>(o)().pos)); },
+			    [](py::object o, py::object v) {
+				    State& state = py::extract<State&>(o);
+				    state.pos    = py::extract<Vector3r>(v)();
+			    } } },
+			{ "State.ori",
+			  { [](py::object o) { return py::object(Quaternionr(py::extract<State&>(o)().ori)); },
+			    [](py::object o, py::object v) {
+				    State& state = py::extract<State&>(o);
+				    state.ori    = py::extract<Quaternionr>(v)();
+			    } } },
+			{ "State.se3",
+			  { [](py::object o) {
+				   const Se3r& se3 = py::extract<State&>(o)().se3;
+				   return py::object(py::make_tuple(se3.position, se3.orientation));
+			   },
+			    [](py::object o, py::object v) {
+				    State& state    = py::extract<State&>(o);
+				    Se3r&  se3      = state.se3;
+				    se3.position    = py::extract<Vector3r>(v[0])();
+				    se3.orientation = py::extract<Quaternionr>(v[1])();
+			    } } },
+			{ "State.blockedDOFs",
+			  { [](py::object o) {
+				   std::string dofs;
+				   for (int axis = 0; axis < 6; axis++)
+					   if (py::extract<State&>(o)().blockedDOFs & State::axisDOF(axis % 3, axis > 2)) dofs += "xyzXYZ"[axis];
+				   return py::object(dofs);
+			   },
+			    [](py::object o, py::object v) {
+				    State& state      = py::extract<State&>(o);
+				    state.blockedDOFs = State::DOF_NONE;
+				    for (const char dof : std::string(py::extract<std::string>(v)()))
+					    state.blockedDOFs |= 1u << std::string("xyzXYZ").find(dof);
+			    } } },
+			PROBE(Material, id), PROBE(Material, label), PROBE(Material, density),
+			PROBE(ElastMat, young), PROBE(ElastMat, poisson),
 			PROBE(FrictMat, frictionAngle),
-			PROBE(Shape, color),
-			PROBE(Shape, wire),
-			PROBE(Shape, highlight),
+			PROBE(Shape, color), PROBE(Shape, wire), PROBE(Shape, highlight),
 			PROBE(Sphere, radius),
-			PROBE(Bound, lastUpdateIter),
-			PROBE(Bound, refPos),
-			PROBE(Bound, sweepLength),
-			PROBE(Bound, color),
-			PROBE(Bound, min),
-			PROBE(Bound, max),
-			PROBE(Body, id),
-			PROBE(Body, groupMask),
-			PROBE(Body, flags),
-			PROBE(Body, subdomain),
-			PROBE(Body, material),
-			PROBE(Body, state),
-			PROBE(Body, shape),
-			PROBE(Body, bound),
-			PROBE(Body, clumpId),
-			PROBE(Body, iterBorn),
-			PROBE(Body, timeBorn),
-			PROBE(Interaction, isActive),
-			PROBE(Interaction, id1),
-			PROBE(Interaction, id2),
-			PROBE(Interaction, iterMadeReal),
-			PROBE(Interaction, geom),
-			PROBE(Interaction, phys),
-			PROBE(Interaction, cellDist),
-			PROBE(Interaction, iterBorn),
+			PROBE(Bound, lastUpdateIter), PROBE(Bound, refPos), PROBE(Bound, sweepLength), PROBE(Bound, color), PROBE(Bound, min), PROBE(Bound, max),
+			PROBE(Body, id), PROBE(Body, groupMask), PROBE(Body, flags), PROBE(Body, subdomain), PROBE(Body, material), PROBE(Body, state),
+			PROBE(Body, shape), PROBE(Body, bound), PROBE(Body, clumpId), PROBE(Body, iterBorn), PROBE(Body, timeBorn),
+			PROBE(Interaction, isActive), PROBE(Interaction, id1), PROBE(Interaction, id2), PROBE(Interaction, iterMadeReal),
+			PROBE(Interaction, geom), PROBE(Interaction, phys), PROBE(Interaction, cellDist), PROBE(Interaction, iterBorn),
 		};
 		return accesses;
 	}
@@ -149,17 +110,17 @@ namespace {
 	{
 		static const auto scene = [](auto member) -> Access {
 			return { [member](py::object) { return py::object((*Omega::instance().getScene()).*member); },
-				[member](py::object, py::object value) {
-					auto& target = (*Omega::instance().getScene()).*member;
-					target       = py::extract<std::decay_t<decltype(target)>>(value)();
-                                } };
+				 [member](py::object, py::object value) {
+					 auto& target = (*Omega::instance().getScene()).*member;
+					 target       = py::extract<std::decay_t<decltype(target)>>(value)();
+				 } };
 		};
 		static const auto bodies = [](auto member) -> Access {
 			return { [member](py::object) { return py::object((*Omega::instance().getScene()->bodies).*member); },
-				[member](py::object, py::object value) {
-					auto& target = (*Omega::instance().getScene()->bodies).*member;
-					target       = py::extract<std::decay_t<decltype(target)>>(value)();
-                                } };
+				 [member](py::object, py::object value) {
+					 auto& target = (*Omega::instance().getScene()->bodies).*member;
+					 target       = py::extract<std::decay_t<decltype(target)>>(value)();
+				 } };
 		};
 		static const std::map<std::string, Access> accesses = {
 			{ "Scene.dt", scene(&Scene::dt) },
@@ -190,30 +151,34 @@ namespace {
 			{ "BodyContainer.subdomainBodies", bodies(&BodyContainer::subdomainBodies) },
 			{ "BodyContainer.dirty", bodies(&BodyContainer::dirty) },
 			{ "BodyContainer.checkedByCollider", bodies(&BodyContainer::checkedByCollider) },
-			{ "ForceContainer.force0", { [](py::object) {
-							    ForceContainer& forces = Omega::instance().getScene()->forces;
-							    forces.sync();
-							    return py::object(Vector3r(forces.getForce(0)));
-						    },
-							   [](py::object, py::object value) {
-								   Omega::instance().getScene()->forces.addForce(0, py::extract<Vector3r>(value)());
-							   } } },
-			{ "ForceContainer.torque0", { [](py::object) {
-							     ForceContainer& forces = Omega::instance().getScene()->forces;
-							     forces.sync();
-							     return py::object(Vector3r(forces.getTorque(0)));
-						     },
-							    [](py::object, py::object value) {
-								    Omega::instance().getScene()->forces.addTorque(0, py::extract<Vector3r>(value)());
-							    } } },
-			{ "ForceContainer.permForce0", { [](py::object) { return py::object(Vector3r(Omega::instance().getScene()->forces.getPermForce(0))); },
-							       [](py::object, py::object value) {
-								       Omega::instance().getScene()->forces.setPermForce(0, py::extract<Vector3r>(value)());
-							       } } },
-			{ "EnergyTracker.probe", { [](py::object) { return py::object(Omega::instance().getScene()->energy->getItem_py("probe")); },
-							 [](py::object, py::object value) {
-								 Omega::instance().getScene()->energy->setItem_py("probe", py::extract<Real>(value)());
-							 } } },
+			{ "ForceContainer.force0",
+			  { [](py::object) {
+				   ForceContainer& forces = Omega::instance().getScene()->forces;
+				   forces.sync();
+				   return py::object(Vector3r(forces.getForce(0)));
+			   },
+			    [](py::object, py::object value) {
+				    Omega::instance().getScene()->forces.addForce(0, py::extract<Vector3r>(value)());
+			    } } },
+			{ "ForceContainer.torque0",
+			  { [](py::object) {
+				   ForceContainer& forces = Omega::instance().getScene()->forces;
+				   forces.sync();
+				   return py::object(Vector3r(forces.getTorque(0)));
+			   },
+			    [](py::object, py::object value) {
+				    Omega::instance().getScene()->forces.addTorque(0, py::extract<Vector3r>(value)());
+			    } } },
+			{ "ForceContainer.permForce0",
+			  { [](py::object) { return py::object(Vector3r(Omega::instance().getScene()->forces.getPermForce(0))); },
+			    [](py::object, py::object value) {
+				    Omega::instance().getScene()->forces.setPermForce(0, py::extract<Vector3r>(value)());
+			    } } },
+			{ "EnergyTracker.probe",
+			  { [](py::object) { return py::object(Omega::instance().getScene()->energy->getItem_py("probe")); },
+			    [](py::object, py::object value) {
+				    Omega::instance().getScene()->energy->setItem_py("probe", py::extract<Real>(value)());
+			    } } },
 		};
 		return accesses;
 	}
