@@ -24,7 +24,7 @@ def fill(region, spacing=None, material=None, thickness=None, velocity=(0, 0, 0)
 
 	With ``placement='gauss'`` points stand at the Gauss-Legendre places of the grid's cells, points an axis, with their weights as
 	volumes. The volume of a box is exact, and stress that varies within a cell is integrated to a higher order: six layers of points in
-	bending are 2.8 % too soft at uniform places and 0.03 % off at Gauss places (doc/verification/cantilever-static.md). Place the region so that
+	bending are 2.8 % too soft at uniform places and 0.4 % too stiff at Gauss places (doc/verification/cantilever-static.md). Place the region so that
 	its lower corner is on a node of the grid, which has nodes on walls and, along an axis without walls, at multiples of cellSize; or
 	give an origin. In cells that the surface of a predicate cuts, points stand at uniform places, points an axis, where these are in it.
 
