@@ -103,8 +103,8 @@ void BodyLinks::refuseBody(Scene& scene, const Body& body) const
 {
 	const std::string name = "O.bodies[" + std::to_string(body.id) + "]";
 	require(body.clumpId == Body::ID_NONE, name, "clumpId", body.clumpId,
-		"a material point cannot be a member of a clump, which moves as a rigid body; release it (O.bodies.releaseFromClump), and make rigid parts of "
-		"grains");
+		"a material point cannot be a member of a clump, which moves as a rigid body; dissolve the clump with O.bodies.erase("
+			+ std::to_string(body.clumpId) + "), which keeps its members, and make rigid parts of grains");
 	require(body.subdomain == MpmState::subdomainOfPoints, name, "subdomain", body.subdomain,
 		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
 	require(body.state->densityScaling == unscaled, name + ".state", "densityScaling", body.state->densityScaling,

@@ -105,7 +105,7 @@ Real MpmEngine::criticalTimeStep()
 	const mpm::StepControl control  = prepare();
 	readBodies();
 	checkValues();
-	return m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
+	return m_points->runtime.solver->criticalTimeStep(control);
 }
 
 std::size_t MpmEngine::gridBytes() const
@@ -354,7 +354,7 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 	if (changed) acousticLimit = NaN; // for adaptStep(), which may be switched on later
 	if (!changed && control.dt <= checkedStep) return;
 	checkedStep      = 0;
-	const Real limit = m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
+	const Real limit = m_points->runtime.solver->criticalTimeStep(control);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
 			"the largest stable step of this scene is " + mpm::number(limit) + " s; "
@@ -369,7 +369,7 @@ void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
 	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0))
-		acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
+		acousticLimit = m_points->runtime.solver->acousticTimeStep(control);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_points->runtime.solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }
@@ -411,6 +411,7 @@ BodyLinks& MpmEngine::links()
 /* Takes from the points' bodies what scripts and other engines have done since the last step. */
 void MpmEngine::readBodies()
 {
+	m_points->restoreForces();
 	if (m_bodies == 0) return;
 	const BodyLinks::Changes changes = links().read(*scene, *m_points);
 	for (const std::size_t p : changes.otherMaterial) {

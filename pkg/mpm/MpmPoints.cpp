@@ -53,15 +53,34 @@ void MpmPoints::finish()
 void MpmPoints::updateLaws()
 {
 	runtime.laws.resize(materials.size());
-	for (std::size_t m = 0; m < materials.size(); ++m)
+	for (std::size_t m = 0; m < materials.size(); ++m) {
+		mpm::Law law;
 		try {
-			const mpm::Law law = lawOf(*materials[m]);
+			law = lawOf(*materials[m]);
+			if (law == runtime.laws[m]) continue;
 			if (!keepsInternals(runtime.laws[m], law) && inUse(m))
 				throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label + incompatible);
-			runtime.laws[m] = law;
 		} catch (const std::runtime_error&) {
 			if (inUse(m)) throw;
+			continue;
 		}
+		finish(); // the step that is past was one of the old law
+		runtime.laws[m] = law;
+	}
+}
+
+void MpmPoints::restoreForces()
+{
+	if (!runtime.forcesDue) return;
+	runtime.forcesDue             = false;
+	const shared_ptr<Scene> scene = Omega::instance().getScene();
+	if (scene->forces.getPermForceUsed()) return;
+	for (std::size_t k = 0; k < forcedBodies.size(); ++k) {
+		const int id = forcedBodies[k];
+		if (std::size_t(id) >= scene->bodies->size() || !(*scene->bodies)[unsigned(id)]) continue;
+		if (!permanentForces[k].isZero()) scene->forces.setPermForce(id, permanentForces[k]);
+		if (!permanentTorques[k].isZero()) scene->forces.setPermTorque(id, permanentTorques[k]);
+	}
 }
 
 void MpmPoints::requireContactLaw() const
@@ -102,6 +121,7 @@ void MpmPoints::setMass(std::size_t p, Real mass)
 		for (const mpm::Column& v : points.velocity)
 			points.energies.external -= .5 * (mass - now) * v[p] * v[p];
 	now = mass;
+	if (runtime.solver) runtime.solver->pointsChanged(); // the least mass of a node follows that of the points
 }
 
 /* Whether what points have of internal variables means the same to another law; a law without any leaves none behind. */
@@ -199,7 +219,12 @@ void MpmPoints::postLoad(MpmPoints&)
 	const auto least = std::min_element(points.id.begin(), points.id.end());
 	if (fault.empty() && (nextBodyless >= 0 || (least != points.id.end() && nextBodyless >= *least)))
 		fault = "nextBodyless = " + std::to_string(nextBodyless) + " is no id for a new point";
+	if (fault.empty() && (permanentForces.size() != forcedBodies.size() || permanentTorques.size() != forcedBodies.size()))
+		fault = "forcedBodies has " + std::to_string(forcedBodies.size()) + " entries for " + std::to_string(permanentForces.size()) + " forces and "
+			+ std::to_string(permanentTorques.size()) + " torques";
+	if (fault.empty() && std::any_of(forcedBodies.begin(), forcedBodies.end(), [](int id) { return id < 0; })) fault = "forcedBodies has a negative id";
 	if (!fault.empty()) throw std::runtime_error("MpmPoints." + fault + ": the saved scene is damaged; load another copy of it");
+	runtime.forcesDue = true;
 	try {
 		updateLaws();
 	} catch (const std::runtime_error&) {
@@ -214,6 +239,17 @@ void MpmPoints::preSave(MpmPoints&)
 	try {
 		finish();
 	} catch (const mpm::StepFailure&) { // of a stress update that nobody has looked at yet
+	}
+	restoreForces();
+	forcedBodies.clear(), permanentForces.clear(), permanentTorques.clear();
+	Scene& scene = *Omega::instance().getScene();
+	if (!scene.forces.getPermForceUsed()) return;
+	if (scene.bodies->size() > 0) scene.forces.addMaxId(Body::id_t(scene.bodies->size()) - 1);
+	scene.forces.sync(); // before it, YADE reads beyond the forces of the bodies that have none
+	for (int id = 0; std::size_t(id) < scene.bodies->size(); ++id) {
+		const Vector3r force = scene.forces.getPermForce(id), torque = scene.forces.getPermTorque(id);
+		if (force.isZero() && torque.isZero()) continue;
+		forcedBodies.push_back(id), permanentForces.push_back(force), permanentTorques.push_back(torque);
 	}
 }
 
@@ -392,6 +428,7 @@ py::object MpmPoints::append(
 	// from here on nothing is refused or interrupted: points are made in whole, or not at all
 	const std::lock_guard<std::mutex> lock(mutex);
 	finish();
+	restoreForces();
 	const int label = groupOf(group, groupName);
 	if (runtime.solver) runtime.solver->pointsChanged();
 	std::size_t index = std::size_t(std::find(materials.begin(), materials.end(), material) - materials.begin());
@@ -582,6 +619,7 @@ py::object MpmPoints::array(const std::string& name)
 {
 	const std::lock_guard<std::mutex> lock(mutex);
 	finish();
+	restoreForces();
 	const std::vector<std::size_t>& order = inOrder();
 	const std::size_t               n     = order.size();
 	if (name == "id" || name == "material" || name == "group") {

@@ -15,6 +15,17 @@
 #include <mutex>
 
 namespace boost::serialization {
+/* A damaged count may ask for more memory than there is. */
+template <class Work> void refuseHugeCounts(const char* object, Work&& work)
+{
+	try {
+		work();
+	} catch (const std::bad_alloc&) {
+		throw std::runtime_error(std::string(object) + " has a column too long for the memory: the saved scene is damaged; load another copy of it");
+	} catch (const std::length_error&) {
+		throw std::runtime_error(std::string(object) + " has a column too long for the memory: the saved scene is damaged; load another copy of it");
+	}
+}
 template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e, const unsigned int)
 {
 	archive& make_nvp("kinetic", e.kinetic) & make_nvp("elastic", e.elastic) & make_nvp("hardening", e.hardening);
@@ -22,7 +33,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e
 	archive& make_nvp("walls", e.walls) & make_nvp("started", e.started);
 }
 /* The columns under their own names; advance is never pending when a scene is saved, forces are YADE's. */
-template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
+template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Points& points)
 {
 	archive& make_nvp("id", points.id) & make_nvp("material", points.material) & make_nvp("fixed", points.fixed);
 	archive& make_nvp("group", points.group) & make_nvp("initialStress", points.initialStress);
@@ -34,11 +45,17 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
+template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
+{
+	refuseHugeCounts("MpmPoints", [&] { serializeColumns(archive, points); });
+}
 template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
 {
 	yade::mpm::Continuity::Memory& m = continuity.memory;
-	archive&                       make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
-	archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
+	refuseHugeCounts("MpmPoints.continuity", [&] {
+		archive& make_nvp("ids", m.ids) & make_nvp("neighbours", m.neighbours) & make_nvp("dX", m.dX);
+		archive& make_nvp("footings", m.footings) & make_nvp("walls", m.walls) & make_nvp("depths", m.depths) & make_nvp("kinds", m.kinds);
+	});
 }
 } // namespace boost::serialization
 
@@ -61,6 +78,7 @@ public:
 		std::shared_ptr<BodyLinks>   links;                // to the points' bodies
 		long                         solverNumber = 0;     // unlike its address, no other solver has had it
 		bool                         failed       = false; // the last step has
+		bool                         forcesDue    = false; // the scene has been loaded, and its permanent forces are not back yet
 	};
 
 	/* Those of the scene, or an empty pointer. */
@@ -78,6 +96,9 @@ public:
 	void updateLaws();
 	/* Throws if points with bodies have a material that YADE's contact laws would abort on. */
 	void requireContactLaw() const;
+	/* Gives the bodies of a loaded scene the permanent forces and torques that they were saved with, which YADE does not save; not where a
+	script has set permanent forces itself since. */
+	void restoreForces();
 	/* Points of a material whose density has changed get the mass of the new one. Returns whether there were any. */
 	bool updateMasses();
 	/* Changes a point's mass, and that of its body where the two agree; the kinetic energy that it brings is external work. */
@@ -153,6 +174,9 @@ public:
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
+		((std::vector<int>, forcedBodies, , Attr::hidden, "Ids of bodies with a permanent force or torque when the scene was saved ..."))
+		((std::vector<Vector3r>, permanentForces, , Attr::hidden, "... their forces [N] ..."))
+		((std::vector<Vector3r>, permanentTorques, , Attr::hidden, "... and their torques [Nm]"))
 		,/*ctor*/,
 		.def("append", &MpmPoints::append, "Adds points; :yref:`mpm.fill` and :yref:`mpm.points` call it.")
 		.def("addTraction", &MpmPoints::addTraction, "A load on a face; :yref:`mpm.traction` calls it.")

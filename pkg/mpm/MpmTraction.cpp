@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmTraction.hpp"
 #include "BadInput.hpp"
+#include "kernel/LoadedColumns.hpp"
 #include <algorithm>
 
 namespace yade {
@@ -44,6 +45,12 @@ void MpmTraction::load(std::size_t number, mpm::Analysis analysis, Real time)
 	for (int d = 0; d < 3; ++d)
 		face.traction[std::size_t(d)] = factor * traction[d];
 	face.pressure = factor * pressure, face.factor = factor;
+}
+
+void MpmTraction::postLoad(MpmTraction&)
+{
+	const std::string fault = mpm::faultOf(face);
+	if (!fault.empty()) throw std::runtime_error("MpmTraction." + fault + ": the saved scene is damaged; load another copy of it");
 }
 
 Vector3r MpmTraction::force() const { return { face.resultant[0], face.resultant[1], face.resultant[2] }; }

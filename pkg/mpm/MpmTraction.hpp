@@ -27,6 +27,8 @@ public:
 	/* Sets the face's load at a time; throws on attributes that an analysis cannot have. number tells the traction in complaints. */
 	void load(std::size_t number, mpm::Analysis analysis, Real time);
 
+	void postLoad(MpmTraction&);
+
 	Vector3r              force() const;
 	Vector3r              displacement() const;
 	Real                  area() const;

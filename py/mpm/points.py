@@ -54,6 +54,7 @@ def fill(region, spacing=None, material=None, thickness=None, velocity=(0, 0, 0)
 	:raises KeyError: if there is no such material
 	"""
 	call = 'mpm.fill'
+	axisymmetric, bodies = flag(call, 'axisymmetric', axisymmetric), flag(call, 'bodies', bodies)
 	if thickness is not None: positive('thickness', thickness)
 	if axisymmetric and thickness is not None:
 		raise ValueError('mpm.fill: thickness = %r with axisymmetric=True: rings have none; leave it out' % thickness)
@@ -111,6 +112,7 @@ def points(position, volume, material, velocity=None, stress=None, bodies=True, 
 	:raises KeyError: if there is no such material
 	"""
 	call = 'mpm.points'
+	axisymmetric, bodies = flag(call, 'axisymmetric', axisymmetric), flag(call, 'bodies', bodies)
 	if thickness is not None: positive('thickness', thickness, call)
 	if axisymmetric and thickness is not None:
 		raise ValueError('mpm.points: thickness = %r with axisymmetric=True: rings have none; leave it out' % thickness)
@@ -168,6 +170,7 @@ def array(name):
 		'backStress' [Pa], 'strain', 'F' [-] (N,3,3); see :yref:`MpmState` for their meaning
 	:raises ValueError: if there is no such quantity
 	"""
+	if not isinstance(name, str): raise ValueError("mpm.array: name = %r: give the name of a quantity, e.g. 'stress'" % (name,))
 	data, kind, shape = _points().array(name)
 	return numpy.frombuffer(data, dtype=kind).reshape(shape)
 
@@ -202,8 +205,9 @@ def findMaterial(material, caller):
 	try:
 		return O.materials[material]
 	except (KeyError, IndexError, RuntimeError, TypeError, OverflowError):
-		raise KeyError('%s: material = %r: there is no such material; O.materials has %s'
-			% (caller, material, [m.label or m.id for m in O.materials] or 'none; append one first')) from None
+		labels = [m.label or m.id for m in O.materials]
+		raise KeyError('%s: material = %r: there is no such material; %s'
+			% (caller, material, 'give one of O.materials, by its label or index: %s' % labels if labels else 'O.materials has none; append one first')) from None
 
 
 def _material(material, caller):
@@ -221,6 +225,12 @@ def positive(name, value, caller='mpm.fill'):
 	"""ValueError unless value is a finite length > 0."""
 	if not (isNumber(value) and math.isfinite(value) and value > 0):
 		raise ValueError('%s: %s = %r: give a finite value > 0 [m]' % (caller, name, value))
+
+
+def flag(caller, name, value):
+	"""True or False, or ValueError."""
+	if isinstance(value, (bool, numpy.bool_)) or (isNumber(value) and value in (0, 1)): return bool(value)
+	raise ValueError('%s: %s = %r: give True or False' % (caller, name, value))
 
 
 def vector(caller, name, value, wanted, size=3):

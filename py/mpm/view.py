@@ -30,7 +30,7 @@ def color(quantity='vonMises', limits=None, colormap='viridis'):
 	if values.shape != ids.shape:
 		raise ValueError('mpm.color: quantity has shape %s: give one number a point, shape %s, e.g. mpm.array(%r)[:,0,0]' % (values.shape, ids.shape, 'stress'))
 	if len(ids) == 0: raise ValueError('mpm.color: there are no material points; make them with mpm.fill()')
-	if not isinstance(colormap, str) or colormap not in matplotlib.colormaps: raise ValueError('mpm.color: colormap = %r: matplotlib has none of this name; try viridis, jet or coolwarm' % (colormap,))
+	if not isinstance(colormap, str) or colormap not in matplotlib.colormaps: raise ValueError('mpm.color: colormap = %r: matplotlib has no colour map of this name; give one that it has, e.g. viridis, jet or coolwarm' % (colormap,))
 	low, high = _limits(values, limits)
 	shade = (values - low)/(high - low) if high > low else numpy.zeros(len(values))
 	for i, rgb in zip(ids.tolist(), matplotlib.colormaps[colormap](shade)[:, :3].tolist()):

@@ -181,7 +181,8 @@ def differ(one, two):
 		for name in a:
 			if name in names:
 				if a[name].shape != b[name].shape or not (a[name] == b[name]).all(): return 'part %d: %s differs by %s' % (k, name, abs(a[name] - b[name]).max() if a[name].shape == b[name].shape else 'its shape')
-			elif a[name] != b[name]: return 'part %d: %s is %s instead of %s' % (k, name, b[name], a[name])
+			elif repr(a[name]) != repr(b[name]):  # YADE's own elastPotential is NaN where a contact has no tangential stiffness
+				return 'part %d: %s is %s instead of %s' % (k, name, b[name], a[name])
 	return '' if len(one) == len(two) else '%d parts instead of %d' % (len(two), len(one))
 
 

@@ -202,6 +202,76 @@ TEST(HardCasesTest, SmallNodalMass)
 	}
 }
 
+/* A column under a weight that grows to four times Young's modulus is crushed; its lowest point reports it, before its volume is a
+fiftieth of what it was, whatever the law, the scheme or the strain measure of the block. */
+TEST(HardCasesTest, CrushedColumn)
+{
+	for (const Scheme scheme : { Scheme::musl, Scheme::usl, Scheme::usf })
+		for (const bool plastic : { false, true }) {
+			SCOPED_TRACE(plastic);
+			Scene s;
+			s.laws  = { plastic ? Scene::boucWen(1e4, 0, 80, 1e6, 2, .05) : Scene::elastic(1e4, 0, 80) };
+			s.walls = { Scene::wall(0, 1, 0, Wall::Kind::slip), Scene::wall(0, -1, 5, Wall::Kind::slip), Scene::wall(1, 1, 0, Wall::Kind::fixed) };
+			s.addBox(2, { 0, 0, 0 }, { 5, 40, 0 }, 1.25);
+			s.control.scheme  = scheme;
+			s.control.damping = .2;
+			s.start(Analysis::planeStrain, ShapeKind::cubic, 5);
+			int         id = -1;
+			std::string text;
+			try {
+				for (double time = 0; time < 60; time += s.control.dt) {
+					s.control.gravity[1] = -13 * std::min(1., time / 30);
+					s.control.dt         = .3 * s.solver->criticalTimeStep(s.control);
+					s.step();
+				}
+			} catch (const StepFailure& e) {
+				id = e.id, text = e.what();
+			}
+			ASSERT_NE(text.find("is crushed to less than a fiftieth of its volume"), std::string::npos) << text;
+			EXPECT_NE(text.find("young"), std::string::npos) << text;
+			double least = 1;
+			for (std::size_t p = 0; p < s.points.count(); ++p)
+				least = std::min(least, determinant<2>(std::array<double, 4> { s.points.deformation[0][p], s.points.deformation[1][p],
+								s.points.deformation[2][p], s.points.deformation[3][p] }
+									       .data()));
+			EXPECT_GT(least, .01) << "it is found in the step in which it happens";
+			EXPECT_LT(least, .02);
+		}
+}
+
+/* A pressure that no elastic compression gives: of a stress from a file, or of a material that has become softer. The limit is the trace of
+the confined state at a fiftieth of the volume. */
+TEST(HardCasesTest, MorePressureThanElasticCompressionGives)
+{
+	for (const Analysis analysis : { Analysis::planeStress, Analysis::planeStrain, Analysis::axisymmetric, Analysis::solid })
+		for (const double part : { .99, 1.01 }) {
+			SCOPED_TRACE(std::string(name(analysis)) + " " + std::to_string(part));
+			const int    dim   = dimension(analysis);
+			const double young = 1e6, poisson = .3;
+			Scene        s;
+			s.laws = { Scene::elastic(young, poisson, 1000) };
+			s.addBox(dim, { 1, 0, 0 }, { 2, 1, 1 }, .25, analysis == Analysis::axisymmetric);
+			s.control.dt = 1e-9;
+			s.start(analysis, ShapeKind::cubic, .5);
+			s.step();
+			s.solver->finish();
+			const double limit   = std::log(.02) * young / (analysis == Analysis::planeStress ? 1 - poisson : 1 - 2 * poisson);
+			const int    normals = analysis == Analysis::planeStress ? 2 : 3;
+			for (int k = 0; k < normals; ++k)
+				s.points.stress[std::size_t(k)][5] = part * limit / normals;
+			std::string text;
+			int         id = -1;
+			try {
+				s.step();
+				s.solver->finish();
+			} catch (const StepFailure& e) {
+				id = e.id, text = e.what();
+			}
+			EXPECT_EQ(id, part > 1 ? s.points.id[5] : -1) << text;
+			EXPECT_EQ(text.find("is under more pressure than elastic compression") != std::string::npos, part > 1) << text;
+		}
+}
+
 /* Velocities that alternate from point to point are invisible to the grid: pure FLIP keeps them for ever, without letting them
 grow. A part dt/tau of PIC a step takes them away with the time tau, and in ten periods 0.08 to 0.17 % of the energy that the grid sees; the filter, whether at
 every step or at every tenth, likewise, and at most 0.02 %. */

@@ -49,7 +49,7 @@ public:
 
 	std::string apply(Points& points, Continuity::Memory& memory)
 	{
-		switch (below(20)) {
+		switch (below(22)) {
 			case 0: return column("id", points.id);
 			case 1: return column("material", points.material);
 			case 2: return column("mass", points.mass);
@@ -69,6 +69,8 @@ public:
 			case 16: return column("neighbours", memory.neighbours);
 			case 17: return column("footings", memory.footings);
 			case 18: return column("walls", memory.walls);
+			case 19: return column("group", points.group);
+			case 20: return columns("initialStress", points.initialStress);
 			default: return below(3) == 0 ? column("kinds", memory.kinds) : below(2) ? column("dX", memory.dX) : column("depths", memory.depths);
 		}
 	}
@@ -161,6 +163,26 @@ TEST(LoadedColumnsTest, FaultsAreNamed)
 	Saved nan                     = s();
 	nan.scene.points.stress[1][2] = NAN;
 	EXPECT_EQ(nonFiniteValue(nan.scene.points), "stress[1] of material point " + std::to_string(nan.scene.points.id[2]) + " is nan");
+}
+
+TEST(LoadedColumnsTest, FaultsOfAFaceAreNamed)
+{
+	Traction whole;
+	for (std::size_t d = 0; d < 3; ++d)
+		whole.position[d] = whole.reference[d] = whole.area[d] = { 1, 2 };
+	whole.weight = { 1, 2 };
+	EXPECT_EQ(faultOf(whole), "");
+	const auto fault = [&](auto&& change) {
+		Traction face = whole;
+		change(face);
+		return faultOf(face);
+	};
+	EXPECT_EQ(fault([](Traction& f) { f.position[1].pop_back(); }), "position[1] has 1 entries for 2 places");
+	EXPECT_EQ(fault([](Traction& f) { f.reference[2].push_back(0); }), "reference[2] has 3 entries for 2 places");
+	EXPECT_EQ(fault([](Traction& f) { f.area[0].clear(); }), "area[0] has 0 entries for 2 places");
+	EXPECT_EQ(fault([](Traction& f) { f.field[0] = { 1 }; }), "field[0] has 1 entries for 2 places");
+	EXPECT_EQ(fault([](Traction& f) { f.pressureField = { 1, 2, 3 }; }), "pressureField has 3 entries for 2 places");
+	EXPECT_EQ(fault([](Traction& f) { f.weight.pop_back(); }), "position[0] has 2 entries for 1 places");
 }
 
 TEST(LoadedColumnsTest, NoDamageGetsPastTheChecksToAnAccessOutOfRange)

@@ -5,7 +5,10 @@ Masses after a change are those of density times volume, to rounding; a run with
 density from the start. Refusals are checked for object, attribute, value and remedy, and that the scene runs on once it is put right.
 """
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(sys.argv[0])))
 from common import *
@@ -88,9 +91,14 @@ for value in float('nan'), 0, -1, float('inf'): heavy(value)
 
 # ---- what a point cannot do ------------------------------------------------------------------------------------------------
 refuses('a torque without contact', 'O.forces.t(5)', '0 0 2', 'couple', spoil=lambda ids, grid: O.forces.setPermT(5, (0, 0, 2)), repair=lambda ids, grid: O.forces.setPermT(5, (0, 0, 0)))
+refuses('a clump', 'clumpId = 64', 'clump', 'O.bodies.erase(64)', make=lambda: block(((0, 0, 0), (1, 1, 1)), thickness=None, analysis='3d'),
+	spoil=lambda ids, grid: O.bodies.clump(ids[:4]), repair=lambda ids, grid: O.bodies.erase(O.bodies[ids[0]].clumpId))
 refuses('a subdomain of yade.mpy', 'O.bodies[7].subdomain', 'yade.mpy', 'one process', spoil=lambda ids, grid: setattr(O.bodies[7], 'subdomain', 1),
 	repair=lambda ids, grid: setattr(O.bodies[7], 'subdomain', O.bodies[6].subdomain))
 refuses('a scene of rank 1', 'O.subdomain = 1', 'yade.mpy', spoil=lambda ids, grid: setattr(O._sceneObj, 'subdomain', 1), repair=lambda ids, grid: setattr(O._sceneObj, 'subdomain', 0))
+refuses('a scene that yade.mpy has split, on its rank 0', 'O.engines has isendRecvForcesRunner', 'yade.mpy', 'one process',
+	spoil=lambda ids, grid: setattr(O, 'engines', O.engines + [PyRunner(iterPeriod=1, command='pass', label='isendRecvForcesRunner')]),
+	repair=lambda ids, grid: setattr(O, 'engines', O.engines[:-1]))
 refuses('density scaling', 'O.bodies[2].state.densityScaling', 'NewtonIntegrator.densityScaling = False', spoil=lambda ids, grid: setattr(O.bodies[2].state, 'densityScaling', .5),
 	repair=lambda ids, grid: setattr(O.bodies[2].state, 'densityScaling', -1))
 refuses('more threads than any machine has', 'MpmEngine.ompThreads = 200000', 'one a core', spoil=lambda ids, grid: setattr(grid, 'ompThreads', 200000),
@@ -127,6 +135,40 @@ check('the step follows points that change between materials in use', O.dt > 3*o
 O.bodies[ids[5]].mat = O.materials['stiff']
 O.run(2, True)
 check('and back', O.dt < 1.5*one, (one, O.dt))
+
+# ---- yade.mpy: two processes that share a scene both end, with the error -----------------------------------------------------
+def twoProcesses():
+	"""What a run of mpy on two processes prints, or None where there is no MPI."""
+	try:
+		import yade.mpy
+	except Exception: return None
+	if not shutil.which('mpirun'): return None
+	folder = tempfile.mkdtemp()
+	with open(os.path.join(folder, 'scene.py'), 'w') as file: file.write('''
+from yade import mpm, mpy
+O.materials.append(FrictMat(label='e', young=1e6, poisson=.25, density=1500, frictionAngle=.5))
+mpm.fill(((0, 0, 0), (.4, .4, .2)), spacing=.1, material='e')
+for i in range(4): O.bodies.append(sphere((.05 + .1*i, .2, .26), .05, material='e'))
+O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()], label='collider'),
+	InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()], label='interactionLoop'),
+	MpmEngine(cellSize=.2, analysis='3d'), NewtonIntegrator(label='newton')]
+O.dt = 1e-4
+mpy.DOMAIN_DECOMPOSITION = True
+mpy.mpirun(10, 2)
+print('mpy has run to its end')
+''')
+	env = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMPI_MCA_rmaps_base_oversubscribe='1')
+	try:
+		return subprocess.run(['mpirun', '-n', '2', sys.executable, shutil.which('yade'), '-n', '-x', os.path.join(folder, 'scene.py')], cwd=folder, env=env, timeout=60,
+			stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout.decode(errors='replace')
+	except subprocess.TimeoutExpired: return 'hangs'
+
+
+said = twoProcesses()
+if said is None: print('not checked: yade.mpy on two processes (no mpirun, or no mpi4py)')
+else:
+	check('yade.mpy on two processes: rank 1 refuses', 'O.subdomain = 1' in said, said)
+	check('yade.mpy on two processes: so does rank 0, and none hangs', 'O.engines has isendRecvForcesRunner' in said and 'to its end' not in said, said)
 
 # ---- two engines -----------------------------------------------------------------------------------------------------------
 ids, grid = block(spacing=.125)

@@ -112,11 +112,12 @@ for name in right: same('the whole scene: ' + name, state()[name], right[name])
 O.run(10, True)
 
 # ---- loaded and changed, changed without loading ----------------------------------------------------------------------------
-def twins(what, change, steps=40, compare=True, **how):
+def twins(what, change, steps=40, law=None, **how):
 	"""The same change before and after loading: same steps of time, same state, same refusal at the same step."""
 	ends = []
 	for loaded in False, True:
-		ids, grid = block(velocity=(0, -3, 0), **dict(dict(analysis='planeStrain', walls=[MpmWall(normal=(0, 1, 0))]), **how))
+		material = law() if law else None  # anew, as the change is one of the material itself
+		ids, grid = block(velocity=(0, -3, 0), material=material, **dict(dict(analysis='planeStrain', walls=[MpmWall(normal=(0, 1, 0))]), **how))
 		O.run(25, True)
 		if loaded:
 			O.saveTmp()
@@ -137,8 +138,48 @@ for what, change in ('cellSize', lambda ids, grid: setattr(grid, 'cellSize', .4)
 		('a second wall, which stretches the cells', lambda ids, grid: setattr(grid, 'walls', grid.walls + [MpmWall(normal=(0, -1, 0), origin=(0, 1.2, 0), kind='slip')])):
 	twins(what + ' changed', change)
 	twins(what + ' changed, where the engine sets the step', change, timeStepSafety=.4)
+twins('a stiffer material', lambda ids, grid: setattr(O.materials[0], 'young', 3e6), timeStepSafety=.4)
+twins('a stiffer material, refused', lambda ids, grid: setattr(O.materials[0], 'young', 1e9))
+twins('a stiffer material, small strain', lambda ids, grid: setattr(O.materials[0], 'young', 3e6), timeStepSafety=.4, largeStrain=False)
+for what, change in ('softer', lambda ids, grid: setattr(O.materials[0], 'young', 3e5)), ('poisson', lambda ids, grid: setattr(O.materials[0], 'poisson', .1)):
+	twins('a material changed: ' + what, change)
+steel = lambda: BoucWenMat(label='steel', young=1e6, poisson=.3, density=1000, yieldStress=1e4, n=5, tangentRatio=.05)
+for name, value in ('yieldStress', 2e4), ('n', 2), ('tangentRatio', .2), ('beta', -.2), ('tolerance', 1e-6):
+	def change(ids, grid, name=name, value=value):
+		setattr(O.materials[0], name, value)
+		if name == 'beta': O.materials[0].gamma = 1.2
+	twins('a material changed: ' + name, change, law=steel)
+twins('a heavier point', lambda ids, grid: setattr(O.bodies[ids[3]].state, 'mass', 1e-5*O.bodies[ids[3]].state.mass), timeStepSafety=.1)
 twins('a larger step, refused', lambda ids, grid: setattr(O, 'dt', 4*O.dt))
 twins('a step near the limit that grows shorter', lambda ids, grid: None, courant=.98, steps=200)
+
+def forced(ids, grid):
+	# set before the save, of the twin that is saved: twins() saves before it calls change
+	for i in ids[:3]: O.forces.setPermF(i, (40, 0, 0))
+
+
+def forces(change):
+	"""Positions after a run in which permanent forces are set before saving, and changed after loading."""
+	ends = []
+	for loaded in False, True:
+		ids, grid = block(walls=[MpmWall(normal=(0, 1, 0))])
+		forced(ids, grid)
+		O.run(20, True)
+		if loaded: O.saveTmp(), O.loadTmp()
+		change(ids)
+		O.run(20, True)
+		ends.append(state()['position'])
+	return ends
+
+
+at_once = forces(lambda ids: None)
+check('permanent forces move the points', abs(at_once[0][:3, 0] - at_once[0][3, 0]).min() > 1e-5, at_once[0])
+same('permanent forces stay over save and load', at_once[1], at_once[0])
+released = forces(lambda ids: [O.forces.setPermF(i, (0, 0, 0)) for i in ids[:3]])
+same('a script that sets permanent forces after loading is in charge of them', released[1], released[0])
+check('and they have gone', abs(released[0] - at_once[0]).max() > 1e-6)
+later = forces(lambda ids: (mpm.array('id'), O.forces.setPermF(ids[5], (0, 30, 0))))
+same('once the points have been looked at the forces are back, and can be added to', later[1], later[0])
 twins('points erased', lambda ids, grid: [O.bodies.erase(i) for i in ids[:3]])
 
 finish()

@@ -60,7 +60,9 @@ std::string faultOf(const Points& points, std::size_t materials)
 				lengths("internal", points.internal, n), lengths("deformation", points.deformation, n),
 				optional("thicknessStretch", points.thicknessStretch.size(), n), optional("dissipation", points.dissipation.size(), n),
 				optional("freeStrain", points.freeStrain.size(), n), optional("fixed", points.fixed.size(), n), optional("touched", points.touched.size(), n),
-				number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }), lengths("moving", points.moving, n));
+				optional("group", points.group.size(), n), number("initialStress", points.initialStress.size(), { 0, 6 }),
+				lengths("initialStress", points.initialStress, n), number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }),
+				lengths("moving", points.moving, n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
@@ -94,6 +96,19 @@ std::string faultOf(const Continuity::Memory& memory)
 	std::sort(ids.begin(), ids.end());
 	if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end()) return "ids has " + std::to_string(*twice) + " twice";
 	return "";
+}
+
+std::string faultOf(const Traction& face)
+{
+	const std::size_t n     = face.count();
+	std::string       fault = face.pressureField.empty() ? "" : entries("pressureField", face.pressureField.size(), n, "places");
+	for (std::size_t d = 0; d < 3 && fault.empty(); ++d) {
+		const std::string axis = "[" + std::to_string(d) + "]";
+		fault                  = first(entries("position" + axis, face.position[d].size(), n, "places"),
+					 entries("reference" + axis, face.reference[d].size(), n, "places"), entries("area" + axis, face.area[d].size(), n, "places"),
+                        face.field[d].empty() ? "" : entries("field" + axis, face.field[d].size(), n, "places"));
+	}
+	return fault;
 }
 
 std::string nonFiniteValue(const Points& points)

@@ -3,6 +3,7 @@
 
 #include "Continuity.hpp"
 #include "Points.hpp"
+#include "Traction.hpp"
 #include <string>
 
 namespace yade::mpm {
@@ -15,6 +16,9 @@ std::string faultOf(const Points& points, std::size_t materials);
 
 /* Lengths and indices of the memory of neighbours. */
 std::string faultOf(const Continuity::Memory& memory);
+
+/* Lengths of the columns of a load on a face. */
+std::string faultOf(const Traction& face);
 
 /* The first number of the points that is not finite, e.g. "stress[1] of material point 7 is nan". It is not an error of the file: a
 scene may be saved after a step that has failed. */

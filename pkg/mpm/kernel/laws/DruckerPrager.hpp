@@ -59,6 +59,11 @@ struct DruckerPrager : LawDefaults {
 		return scale() * cohesion * std::cos(internalFriction);
 	}
 
+	bool operator==(const DruckerPrager& o) const
+	{
+		return cohesion == o.cohesion && internalFriction == o.internalFriction && dilatancy == o.dilatancy && match == o.match;
+	}
+
 	static constexpr Internals maxInternals { 0, 1 }; // p, the accumulated equivalent deviatoric plastic strain
 	static constexpr bool      findsFreeStrain = true;
 	Internals                  internals() const { return maxInternals; }

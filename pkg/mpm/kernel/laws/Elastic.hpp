@@ -11,6 +11,7 @@ namespace yade::mpm {
 struct Elastic : LawDefaults {
 	static constexpr Internals maxInternals {};
 
+	bool      operator==(const Elastic&) const { return true; }
 	Internals internals() const { return {}; }
 	void      check(const Hooke&, Check&) const {}
 

@@ -17,6 +17,7 @@ struct IsotropicHardening {
 	double rate       = 0; // b
 
 	bool                 active() const { return modulus != 0 || saturation != 0; }
+	bool                 operator==(const IsotropicHardening& o) const { return modulus == o.modulus && saturation == o.saturation && rate == o.rate; }
 	template <class T> T radius(double yieldStress, const T& p) const
 	{
 		using std::expm1;

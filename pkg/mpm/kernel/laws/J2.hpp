@@ -19,8 +19,9 @@ struct J2 : LawDefaults {
 	IsotropicHardening isotropic;
 
 	static constexpr Internals maxInternals { 1, 1 };
-	Internals                  internals() const { return maxInternals; }
-	void                       check(const Hooke& C, Check& c) const
+	bool      operator==(const J2& o) const { return yieldStress == o.yieldStress && hardening == o.hardening && isotropic == o.isotropic; }
+	Internals internals() const { return maxInternals; }
+	void      check(const Hooke& C, Check& c) const
 	{
 		c.yieldStress(yieldStress, C.young);
 		isotropic.check(c);

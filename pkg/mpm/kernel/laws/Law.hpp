@@ -52,6 +52,12 @@ struct Law {
 	}
 };
 
+/* Whether two laws are the same to the last bit of every parameter. */
+inline bool operator==(const Law& a, const Law& b)
+{
+	return a.density == b.density && a.elastic.young == b.elastic.young && a.elastic.poisson == b.elastic.poisson && a.model == b.model;
+}
+
 /* The parameters of a law that is known to be an M. */
 template <class M> bool     is(const Law& law) { return std::holds_alternative<M>(law.model); }
 template <class M> M&       as(Law& law) { return std::get<M>(law.model); }

@@ -54,13 +54,13 @@ public:
 		checkStress();
 	}
 
-	double acousticTimeStep(Scheme scheme, bool fullMass) override
+	double acousticTimeStep(const StepControl& control) override
 	{
 		if (points().count() == 0) return std::numeric_limits<double>::infinity();
 		finish();
 		if (!isLaid()) m_shown = nodes();
 		layGrid();
-		return StableStep<D>(m_d, m_laws, m_control).value(scheme, fullMass);
+		return StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass);
 	}
 	double crossingRate() const override
 	{
@@ -312,10 +312,7 @@ private:
 			if (report.failed >= 0) {
 				const std::size_t p = std::size_t(report.failed);
 				report.failed       = -1;
-				checks().fail(p, report.why,
-					report.why == StressUpdate<D>::noStress ? "reduce O.dt or the load, or check its material (yieldStress in Pa?)"
-										: "reduce O.dt or the load, or use more points a cell",
-					m_control.time);
+				checks().fail(p, report.why, StressUpdate<D>::remedy(report.why), m_control.time);
 			}
 	}
 	/* Points that have left their tile have to be sorted anew; those that have left the scene stop the run. */

@@ -67,12 +67,18 @@ public:
 	/* The points' number, order, position or velocity have been changed from outside (after finish()). */
 	virtual void pointsChanged() = 0;
 	/* Largest stable step for the points as they stand, at rest [s]: from the greatest eigenvalue of the discrete operator
-	with elastic stiffness. */
-	virtual double acousticTimeStep(Scheme scheme, bool fullMass = false) = 0;
+	with elastic stiffness. Of control it depends on scheme, fullMass and largeStrain. */
+	virtual double acousticTimeStep(const StepControl& control) = 0;
 	/* Cells that the fastest point crosses in a second. */
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
-	double criticalTimeStep(Scheme scheme, bool fullMass = false) { return 1 / (1 / acousticTimeStep(scheme, fullMass) + crossingRate()); }
+	double criticalTimeStep(const StepControl& control) { return 1 / (1 / acousticTimeStep(control) + crossingRate()); }
+	double criticalTimeStep(Scheme scheme, bool fullMass = false)
+	{
+		StepControl control;
+		control.scheme = scheme, control.fullMass = fullMass;
+		return criticalTimeStep(control);
+	}
 	/* The nodes of the last step, with the velocities that it ended with. */
 	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */

@@ -22,6 +22,19 @@ template <class D> struct StressUpdate {
 	static constexpr const char* noVolume = "has a volume that is not positive";
 	static constexpr const char* noStress = "is strained by more than its law can follow in a step";
 	static constexpr const char* tooFar   = "is deformed by more than its own size in a step";
+	static constexpr const char* crushed  = "is crushed to less than a fiftieth of its volume";
+	static constexpr const char* pressed  = "is under more pressure than elastic compression to a fiftieth of its volume gives";
+
+	/* Least part of its undeformed volume that a point may have, by its deformation and by its elastic strain. The laws are linear in the
+	logarithmic strain; beyond a compression of ln 50 = 3.9 no material follows them, and the grid resolves the body no more. */
+	static constexpr double leastVolume = .02;
+
+	static const char* remedy(const char* why)
+	{
+		if (why == noStress) return "reduce O.dt or the load, or check its material (yieldStress in Pa?)";
+		if (why == crushed || why == pressed) return "reduce the load, or give its material the stiffness to carry it (young in Pa?)";
+		return "reduce O.dt or the load, or use more points a cell";
+	}
 
 	D&                      d;
 	const std::vector<Law>& laws;
@@ -88,6 +101,23 @@ private:
 	{
 		return std::all_of(x, x + count, [](double value) { return std::isfinite(value); });
 	}
+	/* Sum of the normal stresses at which the elastic strains of a confined point are those of leastVolume [Pa]: negative. */
+	static double leastTrace(const Law& law)
+	{
+		double strain[N] {}, stress[N] {}, trace = 0;
+		strain[0] = std::log(leastVolume);
+		S::elastic(law.elastic, strain, stress);
+		for (int k = 0; k < normals<S>(); ++k)
+			trace += stress[k];
+		return trace;
+	}
+	static double traceOf(const double* sigma)
+	{
+		double trace = 0;
+		for (int k = 0; k < normals<S>(); ++k)
+			trace += sigma[k];
+		return trace;
+	}
 	static double determinantOf(const Lanes (&F)[dim * dim], int l)
 	{
 		double f[dim * dim];
@@ -119,15 +149,19 @@ private:
 			load(P.deformation[std::size_t(k)], block, b.F[k]);
 
 		updateBlock(d.transfer.instructions, law, control.largeStrain, b);
-		int sound = 1;
+		const double least = leastTrace(law);
+		int          sound = 1;
 #pragma omp simd reduction(& : sound)
 		for (int l = 0; l < lanes; ++l) {
-			double sum = 0;
-			for (int k = 0; k < N; ++k)
-				sum += b.sigma[k][l];
-			sound &= (sum - sum == 0) & (determinantOf(b.F, l) > 0);
+			double trace = 0, shear = 0;
+			for (int k = 0; k < normals<S>(); ++k)
+				trace += b.sigma[k][l];
+			for (int k = normals<S>(); k < N; ++k)
+				shear += b.sigma[k][l];
+			const double sum = trace + shear;
+			sound &= (sum - sum == 0) & (trace > least) & (determinantOf(b.F, l) > leastVolume);
 		}
-		if (!sound) reportBlock(block, b, report);
+		if (!sound) reportBlock(block, b, least, report);
 
 		for (int k = 0; k < N; ++k)
 			store(b.sigma[k], block, P.stress[std::size_t(k)]);
@@ -143,7 +177,7 @@ private:
 		return true;
 	}
 	/* Reports the failures of a block; where the law has failed, the point keeps its stress. */
-	[[gnu::noinline]] void reportBlock(Block block, LawBlock<S>& b, TileReport& report)
+	[[gnu::noinline]] void reportBlock(Block block, LawBlock<S>& b, double leastTrace, TileReport& report)
 	{
 		for (int l = 0; l < block.count; ++l) {
 			const std::size_t p = block.first + std::size_t(l);
@@ -154,6 +188,8 @@ private:
 				report.fail(p, noVolume);
 			else if (!isFinite<N>(sigma))
 				report.fail(p, noStress);
+			else
+				checkCompression(p, determinantOf(b.F, l), traceOf(sigma), leastTrace, report);
 			if (isFinite<N>(sigma)) continue;
 			for (int k = 0; k < N; ++k)
 				b.sigma[k][l] = points().stress[std::size_t(k)][p];
@@ -161,6 +197,13 @@ private:
 				b.internal[k][l] = points().internal[k][p];
 			b.response.freeStrain[l] = 0;
 		}
+	}
+	static void checkCompression(std::size_t p, double volume, double trace, double leastTrace, TileReport& report)
+	{
+		if (!(volume > leastVolume))
+			report.fail(p, crushed);
+		else if (!(trace > leastTrace))
+			report.fail(p, pressed);
 	}
 	void advanceHoop(std::size_t p, double g)
 	{
@@ -215,7 +258,8 @@ private:
 			P.internal[std::size_t(k)][p] = internal[k];
 		for (int k = 0; k < dim * dim; ++k)
 			P.deformation[std::size_t(k)][p] = F[k];
-		if (!(determinant<dim>(F) > 0)) report.fail(p, noVolume);
+		if (!(determinant<dim>(F) > 0)) return report.fail(p, noVolume);
+		checkCompression(p, determinant<dim>(F), traceOf(sigma), leastTrace(law), report);
 	}
 };
 

@@ -45,6 +45,14 @@ struct BoucWen : LawDefaults {
 	double             pinchingWidth        = .2; // width of that, over sigma_y, > 0
 	double             reloading            = 0;  // r: 0 off; 1 and more smooth, infinity elastic reloading
 
+	bool operator==(const BoucWen& o) const
+	{
+		return yieldStress == o.yieldStress && n == o.n && beta == o.beta && gamma == o.gamma && hardening == o.hardening && tolerance == o.tolerance
+		       && loadingRule == o.loadingRule && isotropic == o.isotropic && strengthDegradation == o.strengthDegradation
+		       && stiffnessDegradation == o.stiffnessDegradation && pinching == o.pinching && pinchingRate == o.pinchingRate
+		       && pinchingLevel == o.pinchingLevel && pinchingWidth == o.pinchingWidth && reloading == o.reloading;
+	}
+
 	/* Factor on D that bounds the tangent: unloading is stiffer than elastic where gamma > beta. */
 	double stiffnessBound() const { return 1 + std::max(0., gamma - beta); }
 
