@@ -152,7 +152,8 @@ TEST(DruckerPragerLaw, RefusesInadmissibleParameters)
 }
 
 /* The angle and cohesion mobilised in the state that the cone is matched to are those given, and the inscribed cone exceeds them nowhere. Limit states after
- * large strain, with and without dilatancy. */
+ * large strain, with and without dilatancy. In plane strain the limit state of constant stress needs the volume to grow at the rate of the flow,
+ * eps_1 + eps_2 = sin(psi) (eps_1 - eps_2): under another path stresses grow for ever, and with them the elastic strain across the plane. */
 TEST(DruckerPragerLaw, MatchesTheStateThatItNames)
 {
 	using Match       = DruckerPrager::Match;
@@ -171,14 +172,15 @@ TEST(DruckerPragerLaw, MatchesTheStateThatItNames)
 	for (const double phi : { .3, .5236, .7 })
 		for (const double psi : { 0., .1, .3 }) {
 			const std::array<double, 3> plane { 1, -1, 0 }, compression { .5, -1, .5 }, extension { 1, -.5, -.5 };
-			EXPECT_NEAR(excess(Match::planeStrain, phi, psi, plane), 1, 1e-6) << phi << ", " << psi;
+			const std::array<double, 3> dilating { 1 + std::sin(psi), std::sin(psi) - 1, 0 };
+			EXPECT_NEAR(excess(Match::planeStrain, phi, psi, dilating), 1, 1e-6) << phi << ", " << psi;
 			EXPECT_NEAR(excess(Match::compression, phi, psi, compression), 1, 1e-6) << phi << ", " << psi;
 			EXPECT_NEAR(excess(Match::extension, phi, psi, extension), 1, 1e-6) << phi << ", " << psi;
 			EXPECT_GT(excess(Match::compression, phi, psi, plane), 1.05);
-			for (const auto& way : { plane, compression, extension })
+			for (const auto& way : { plane, dilating, compression, extension })
 				EXPECT_LE(excess(Match::inscribed, phi, psi, way), 1 + 1e-6) << phi << ", " << psi;
 		}
-	EXPECT_NEAR(excess(Match::inscribed, .5, .5, { 1, -1, 0 }), 1, 1e-6); // associated flow: the plane strain cone
+	EXPECT_NEAR(excess(Match::inscribed, .5, .5, { 1 + std::sin(.5), std::sin(.5) - 1, 0 }), 1, 1e-6); // associated flow: the plane strain cone
 }
 
 } // namespace

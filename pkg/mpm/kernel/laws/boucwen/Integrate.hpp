@@ -20,10 +20,14 @@ struct CashKarp {
 so the error of a sub-step is bounded by a part of the tolerance times its own flow (in yield strains), and where there is almost no flow by
 a small part times its length. The sum over any path then stays below the tolerance (doc/law.md, Integration). */
 struct ErrorBound {
-	static constexpr double perFlow = 1;    // error over tolerance and flow, of Cash & Karp's pair
-	static constexpr double floor   = 3e-4; // error over tolerance, a yield strain of length
-	static constexpr double kink    = 1e-4; // error over tolerance of a sub-step between loading and unloading
-	static constexpr double cap     = .25;  // greatest error over tolerance
+	static constexpr double floor = 3e-4; // error over tolerance, a yield strain of length
+	static constexpr double kink  = .01;  // flow over tolerance of a sub-step with a kink of lambda', which its stages may miss
+	static constexpr double cap   = .25;  // greatest error over tolerance
+	static constexpr double rough = .05;  // part of it where f changes fourfold and f^n is not smooth at 0
+
+	/* Error over tolerance and flow. With n below 1, pinching and reloading flow contracts more slowly, and degradation keeps the errors
+	of what has been dissipated. */
+	static double perFlow(const BoucWen& law) { return std::min(1., law.n) * (law.degrades() ? .03 : law.remembers() ? .3 : 1); }
 };
 
 /* Integrates y over the strain increment, every lane in sub-steps of its own until the last has finished. A modified Euler pair covers the
@@ -37,11 +41,13 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 	constexpr int N = S::N, size = Y::size;
 	const double  nan = std::numeric_limits<double>::quiet_NaN(), tolerance = law.tolerance, sy = law.yieldStress;
 	const double  leastError = std::max(ErrorBound::floor * tolerance, 1e-14), least2 = leastError * leastError / (tolerance * tolerance); // above rounding
+	const double  perFlow = ErrorBound::perFlow(law), perFlow2 = perFlow * perFlow;
+	const bool    rough     = law.n < 5 && law.n != std::floor(law.n);
 	const bool    remembers = options && law.remembers(), paper = options && law.paper();
 	// up to this f/sigma_y, H1 H2 is below the threshold of flow
 	const double small = options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(leastFlow * tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
-	Reals<W, T>  De[N], stepStress[N], stepStrain[N], dy1[size], dy2[size], next[size], mDe1, mDe2, radius, done {}, step;
-	Reals<W>     excess, accepted, failed {}, lost {}, turns;
+	Reals<W, T>  De[N], stepStress[N], stepStrain[N], dy1[size], dy2[size], next[size], mDe1, mDe2, radius, done {}, step, uncut;
+	Reals<W>     excess, accepted, failed {}, lost {}, kinks {};
 	forLanes<W>([&](int l) {
 		T e[N], d[N];
 		for (int k = 0; k < N; ++k)
@@ -51,9 +57,27 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 			De[k][l] = d[k];
 		step[l] = 1;
 	});
-	auto begin = [&] {
-		forLanes<W>([&](int l) { step[l] = std::min<T>(step[l], 1 - done[l]); });
-		if (remembers) reloading.begin(law, y, De, step);
+	auto elasticFactor = [&](int l) -> T { return options ? 1 / (1 + y[options ? Y::compliance : 0][l]) : T(1); };
+	/* A sub-step ends at the latest where f turns on an elastic path, from unloading to loading. */
+	auto cutAtTurn = [&] {
+		forLanes<W>([&](int l) {
+			T xi[N], m[N], de[N];
+			backStressFree<S>(y, l, xi);
+			for (int k = 0; k < N; ++k)
+				de[k] = elasticFactor(l) * De[k][l];
+			S::normal(xi, 1, m);
+			const T    A = S::mises2(de), turn = -dot<S>(m, de) / (A > 0 ? A : T(1));
+			const bool cut     = (turn > 1e-9) & (turn < step[l]);
+			step[l]            = cut ? turn : step[l];
+			reloading.stops[l] = cut ? 1 : 0;
+		});
+	};
+	auto begin = [&](bool first = false) {
+		forLanes<W>([&](int l) { uncut[l] = step[l], step[l] = std::min<T>(step[l], 1 - done[l]); });
+		if (remembers)
+			reloading.begin(law, y, De, step);
+		else if (!paper && !first)
+			cutAtTurn();
 		forLanes<W>([&](int l) {
 			for (int k = 0; k < N; ++k)
 				stepStress[k][l] = step[l] * De[k][l], stepStrain[k][l] = step[l] * strain[k][l];
@@ -103,15 +127,14 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 			const bool   good   = accepted[l] != 0;
 			const double by     = factor(l);
 			const T      shrink = step[l] * (by > .1 ? by : .1), grow = step[l] * (by < 4 ? by : 4); // .1 and 4 for NaN
-			const T      reached = done[l] + step[l], longer = failed[l] != 0 ? step[l] : grow, after = reloading.stops[l] != 0 ? T(1) : longer;
+			const T      reached = done[l] + step[l], longer = failed[l] != 0 ? step[l] : grow, after = reloading.stops[l] != 0 ? uncut[l] : longer;
 			const T      arrived = step[l] < 1 - done[l] ? reached : T(1);
 			done[l]              = good ? arrived : done[l];
 			step[l]              = good ? after : shrink;
 			failed[l]            = good ? 0 : 1;
 		});
 	};
-	auto elasticFactor = [&](int l) { return options ? 1 / (1 + valueOf(y[options ? Y::compliance : 0][l])) : 1; };
-	auto fail          = [&] { forLanes<W>([&](int l) { y[0][l] = ((done[l] < 1) | (lost[l] != 0)) ? T(nan) : y[0][l]; }); };
+	auto fail = [&] { forLanes<W>([&](int l) { y[0][l] = ((done[l] < 1) | (lost[l] != 0)) ? T(nan) : y[0][l]; }); };
 
 	auto giveUpLost = [&] {
 		if (paper) forLanes<W>([&](int l) { y[0][l] = lost[l] != 0 ? T(nan) : y[0][l]; });
@@ -128,7 +151,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 		forLanes<W>([&](int l) {
 			/* Half the difference of the two flows is the error of the first-order member; over the flow it is r. The second-order member is
 			carried on; of its flow r^2/3 is wrong where flow grows like an exponential, as it does below the knee. */
-			const double elastic = 2 * elasticFactor(l), floor = 2 * leastError;
+			const double elastic = 2 * valueOf(elasticFactor(l)), floor = 2 * leastError;
 			double       difference2 = 0, flow2 = 0, length2 = 0;
 			for (int k = 0; k < 2 * N; ++k) {
 				const double first = valueOf(dy1[k][l]), second = valueOf(dy2[k][l]), difference = second - first,
@@ -136,16 +159,17 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 				difference2 += difference * difference, flow2 += sum * sum, length2 += .25 * part * part;
 			}
 			// the difference alone misses a flow that vanishes inside the sub-step, between loading and unloading
-			const bool   kinks  = (mDe1[l] < 0) != (mDe2[l] < 0);
-			const double error2 = (kinks & (flow2 > difference2)) ? flow2 : difference2;
-			const double most = .25 * tolerance * tolerance * sy * sy, relative = (kinks ? 0 : tolerance * flow2) + floor * floor * length2;
-			excess[l] = error2 / ((paper ? most : std::min(most, relative)) + 1e-300);
+			const bool   kink     = (mDe1[l] < 0) != (mDe2[l] < 0);
+			const double error2   = (kink & (flow2 > difference2)) ? flow2 : difference2;
+			const double most     = .25 * tolerance * tolerance * sy * sy,
+				     relative = (kink ? 0 : perFlow * tolerance * flow2) + floor * floor * length2;
+			excess[l]             = error2 / ((paper ? most : std::min(most, relative)) + 1e-300);
 			for (int k = 0; k < size; ++k)
 				next[k][l] = y[k][l] + .5 * (dy1[k][l] + dy2[k][l]);
 		});
 	};
 
-	begin(), heun();
+	begin(true), heun();
 	if (end()) return giveUpLost();
 	advance([&](int l) { return (paper ? .9 : 2) / std::sqrt(std::sqrt(excess[l])); });
 
@@ -170,12 +194,15 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 			});
 			boucWenRate<S, options>(law, C, small, reloading, next, stepStrain, stepStress, slopes[stage], mDe);
 			forLanes<W>([&](int l) {
-				if (stage == 0) mDe1[l] = mDe[l], turns[l] = 0;
-				turns[l] = (mDe1[l] < 0) != (mDe[l] < 0) ? 1 : turns[l];
+				if (stage == 0) mDe1[l] = mDe[l], kinks[l] = 0;
+				// a sub-step that begins at a turn, to rounding, has no kink
+				const double first = valueOf(mDe1[l]), here = valueOf(mDe[l]);
+				const bool   kink = ((first < 0) != (here < 0)) & (std::abs(first) > 1e-6 * std::abs(here));
+				kinks[l]          = kink ? 1 : kinks[l];
 			});
 		}
 		forLanes<W>([&](int l) {
-			const double elastic = elasticFactor(l);
+			const double elastic = valueOf(elasticFactor(l));
 			double       error2 = 0, flow2 = 0, length2 = 0;
 			for (int k = 0; k < size; ++k) {
 				T      sum   = CashKarp::b[0] * slopes[0][k][l];
@@ -187,12 +214,23 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 				const double part = k < N ? elastic * valueOf(stepStress[k < N ? k : 0][l]) : 0, flow = valueOf(sum) - part;
 				error2 += error * error, flow2 += flow * flow, length2 += part * part;
 			}
-			const double t2 = tolerance * tolerance, atKink = turns[l] != 0 ? ErrorBound::kink * sy : 0;
-			const double perFlow = ErrorBound::perFlow * ErrorBound::perFlow * flow2 + least2 * length2 + atKink * atKink;
-			excess[l]            = error2 / (t2 * std::min(ErrorBound::cap * ErrorBound::cap * sy * sy, perFlow) + 1e-300);
+			double part2 = 1;
+			if (rough) {
+				T from[N], to[N];
+				backStressFree<S>(y, l, from), backStressFree<S>(next, l, to);
+				const double f0 = valueOf(S::mises2(from)), f1 = valueOf(S::mises2(to));
+				part2 = std::min(f0, f1) < .0625 * std::max(f0, f1) ? ErrorBound::rough * ErrorBound::rough : 1;
+			}
+			const bool   kink  = kinks[l] != 0;
+			const double kink2 = ErrorBound::kink * ErrorBound::kink * sy * sy, cap2 = ErrorBound::cap * ErrorBound::cap * perFlow2 * sy * sy;
+			const double most2 = kink ? kink2 : std::min(cap2, part2 * perFlow2 * flow2 + least2 * length2);
+			excess[l]          = (kink & (flow2 > error2) ? flow2 : error2) / (tolerance * tolerance * most2 + 1e-300);
 		});
 		if (end()) return giveUpLost();
-		advance([&](int l) { return .9 / std::sqrt(std::sqrt(std::sqrt(excess[l]))); });
+		advance([&](int l) {
+			const double fourth = std::sqrt(std::sqrt(excess[l]));
+			return .9 / (kinks[l] != 0 ? fourth : std::sqrt(fourth));
+		});
 	}
 	fail();
 }

@@ -69,7 +69,7 @@ void flowRatio(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, 
 
 /* dy over a strain increment and the elastic stress De that belongs to it, and the sign of loading. With m = M xi = f a:
    lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio.
-Up to z = f/sigma_y = small, the flow is known to be none. */
+Up to z = f/sigma_y = small, the flow is known to be none. In a state that no exact solution comes near, dy is no number. */
 template <class S, bool options, int W, class T>
 void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloading<S, W, T>& reloading, const Reals<W, T>* y, const Reals<W, T>* strain,
 	const Reals<W, T>* De, Reals<W, T>* dy, Reals<W, T>& mDe)
@@ -106,6 +106,10 @@ void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloadi
 		z[l]   = options ? f[l] / radius[l] : f[l] * inverseYield;
 	});
 	power(z, law.n, small, H);
+	/* f never exceeds the radius. A stage far outside is of a sub-step that is too long; its flow may overflow, or, with a radius below zero,
+	vanish, and hide from the error estimate. */
+	if (!(options && law.paper()))
+		forLanes<W>([&](int l) { dy[0][l] = ((z[l] >= 0) & (H[l] <= 10)) ? dy[0][l] : T(std::numeric_limits<double>::quiet_NaN()); });
 	if constexpr (options)
 		flowRatio(law, y, De, reloading, f, radius, mDe, H);
 	else
