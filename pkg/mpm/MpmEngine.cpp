@@ -416,7 +416,10 @@ void MpmEngine::readBodies()
 	const BodyLinks::Changes changes = links().read(*scene, *m_points);
 	for (const std::size_t p : changes.otherMaterial) {
 		m_points->finish();
-		m_points->changeMaterial(p, links().body(m_points->points.id[p]).material);
+		const shared_ptr<Body>& body    = (*scene->bodies)[unsigned(m_points->points.id[p])];
+		const bool              bounded = dynamic_cast<const FrictMat*>(m_points->materials[std::size_t(m_points->points.material[p])].get());
+		m_points->changeMaterial(p, body->material);
+		if (!bounded && dynamic_cast<const FrictMat*>(body->material.get())) body->flags |= Body::FLAG_BOUNDED; // it can have contacts now
 		m_points->continuity.forget(); // points of some laws are left out of its check
 		forgetStep();
 		prepareSolver();

@@ -57,8 +57,10 @@ void MpmPoints::updateLaws()
 		mpm::Law law;
 		try {
 			law = lawOf(*materials[m]);
-			if (law == runtime.laws[m]) continue;
-			if (!keepsInternals(runtime.laws[m], law) && inUse(m))
+			if (!runtime.layoutsDue && law == runtime.laws[m]) continue;
+			const bool   saved  = runtime.layoutsDue && 3 * m + 2 < layouts.size();
+			const Layout before = saved ? Layout { layouts[3 * m], layouts[3 * m + 1], layouts[3 * m + 2] } : layoutOf(runtime.laws[m]);
+			if (!keepsInternals(before, layoutOf(law)) && inUse(m))
 				throw std::runtime_error(materials[m]->getClassName() + " '" + materials[m]->label + incompatible);
 		} catch (const std::runtime_error&) {
 			if (inUse(m)) throw;
@@ -67,6 +69,7 @@ void MpmPoints::updateLaws()
 		finish(); // the step that is past was one of the old law
 		runtime.laws[m] = law;
 	}
+	runtime.layoutsDue = false;
 }
 
 void MpmPoints::restoreForces()
@@ -125,11 +128,15 @@ void MpmPoints::setMass(std::size_t p, Real mass)
 }
 
 /* Whether what points have of internal variables means the same to another law; a law without any leaves none behind. */
-bool MpmPoints::keepsInternals(const mpm::Law& before, const mpm::Law& after) const
+bool MpmPoints::keepsInternals(const Layout& before, const Layout& after) const
 {
-	const mpm::Internals a = mpm::Internals::of(before), b = mpm::Internals::of(after);
-	return points.internal.empty() || a.columns(1) == 0
-	       || (a.tensors == b.tensors && a.scalars == b.scalars && before.model.index() == after.model.index());
+	return points.internal.empty() || before[1] + before[2] == 0 || before == after;
+}
+
+MpmPoints::Layout MpmPoints::layoutOf(const mpm::Law& law)
+{
+	const mpm::Internals internals = mpm::Internals::of(law);
+	return { int(law.model.index()), internals.tensors, internals.scalars };
 }
 
 void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& material)
@@ -143,7 +150,7 @@ void MpmPoints::changeMaterial(std::size_t p, const shared_ptr<Material>& materi
 	if (mpm::Internals::of(runtime.laws[after]).columns(1) == 0)
 		for (mpm::Column& column : points.internal)
 			column[p] = 0; // an elastic point forgets
-	else if (!keepsInternals(runtime.laws[before], runtime.laws[after])) {
+	else if (!keepsInternals(layoutOf(runtime.laws[before]), layoutOf(runtime.laws[after]))) {
 		points.material[p] = int(before);
 		throw std::runtime_error(
 			"O.bodies[" + std::to_string(points.id[p]) + "].mat = " + material->getClassName() + " '" + material->label + incompatible);
@@ -230,6 +237,7 @@ void MpmPoints::postLoad(MpmPoints&)
 	} catch (const std::runtime_error&) {
 		runtime.laws.clear(); // the engine complains about a bad material before its next step
 	}
+	runtime.layoutsDue = true; // the scene's bodies, which tell whether a material is in use, are not there yet
 }
 
 /* A scene that a failed step has stopped must still be saveable: what fails here has failed in the run as well. */
@@ -239,6 +247,11 @@ void MpmPoints::preSave(MpmPoints&)
 	try {
 		finish();
 	} catch (const mpm::StepFailure&) { // of a stress update that nobody has looked at yet
+	}
+	if (!runtime.layoutsDue) layouts.clear();
+	for (std::size_t m = 0; m < runtime.laws.size() && !runtime.layoutsDue; ++m) {
+		const Layout layout = layoutOf(runtime.laws[m]);
+		layouts.insert(layouts.end(), layout.begin(), layout.end());
 	}
 	restoreForces();
 	forcedBodies.clear(), permanentForces.clear(), permanentTorques.clear();
@@ -420,6 +433,8 @@ py::object MpmPoints::append(
 		body->shape                = sphere;
 		body->material             = material;
 		body->subdomain            = MpmState::subdomainOfPoints;
+		// without a contact law YADE aborts in its InteractionLoop, before the engine can refuse the material
+		if (!boost::dynamic_pointer_cast<FrictMat>(material)) body->flags &= ~Body::FLAG_BOUNDED;
 		if (!mask.is_none()) body->groupMask = py::extract<int>(mask)();
 		states.push_back(state), made.push_back(body);
 	}

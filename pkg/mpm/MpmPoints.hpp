@@ -78,6 +78,7 @@ public:
 		std::shared_ptr<BodyLinks>   links;                // to the points' bodies
 		long                         solverNumber = 0;     // unlike its address, no other solver has had it
 		bool                         failed       = false; // the last step has
+		bool                         layoutsDue   = false; // laws are those of a file, and have not been compared with its layouts
 		bool                         forcesDue    = false; // the scene has been loaded, and its permanent forces are not back yet
 	};
 
@@ -174,6 +175,7 @@ public:
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))
+		((std::vector<int>, layouts, , Attr::hidden, "Of each material's law when the scene was saved: which one, numbers of internal tensors and scalars"))
 		((std::vector<int>, forcedBodies, , Attr::hidden, "Ids of bodies with a permanent force or torque when the scene was saved ..."))
 		((std::vector<Vector3r>, permanentForces, , Attr::hidden, "... their forces [N] ..."))
 		((std::vector<Vector3r>, permanentTorques, , Attr::hidden, "... and their torques [Nm]"))
@@ -208,7 +210,9 @@ private:
 	Matrix3r       tensor(const mpm::Columns& columns, std::size_t p) const;
 	mpm::Internals internals(std::size_t p) const;
 	bool           inUse(std::size_t material) const;
-	bool           keepsInternals(const mpm::Law& before, const mpm::Law& after) const;
+	using Layout = std::array<int, 3>; // of a law's internal variables: index of the law, tensors, scalars
+	static Layout layoutOf(const mpm::Law& law);
+	bool          keepsInternals(const Layout& before, const Layout& after) const;
 };
 REGISTER_SERIALIZABLE(MpmPoints);
 

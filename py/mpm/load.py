@@ -45,7 +45,7 @@ def traction(face, traction=None, pressure=None, thickness=None, axisymmetric=Fa
 		traction = _points.vector(caller, 'traction', traction, 'three finite components [Pa]')
 		if plane and traction[2] != 0: raise ValueError('mpm.traction: traction = %s: in a plane problem nothing moves along z; give 0' % traction)
 	elif not (_points.isNumber(pressure) and math.isfinite(pressure)): raise ValueError('mpm.traction: pressure = %r: give a finite pressure [Pa]' % (pressure,))
-	if not (_points.isNumber(points) and int(points) == points and 1 <= points <= 10):
+	if not (_points.isWhole(points) and 1 <= points <= 10):
 		raise ValueError('mpm.traction: points = %r: give a whole number from 1 to 10' % (points,))
 	if cellSize is not None: _points.positive('cellSize', cellSize, caller)
 	times, factors = _history(times, factors)

@@ -221,6 +221,9 @@ def _material(material, caller):
 def isNumber(value): return isinstance(value, (int, float, numpy.floating, numpy.integer)) and not isinstance(value, bool)
 
 
+def isWhole(value): return isNumber(value) and math.isfinite(value) and int(value) == value
+
+
 def positive(name, value, caller='mpm.fill'):
 	"""ValueError unless value is a finite length > 0."""
 	if not (isNumber(value) and math.isfinite(value) and value > 0):
@@ -285,7 +288,7 @@ def _stresses(caller, stress, position):
 def _places(spacing, cellSize, points, placement):
 	"""Spacing, size of cells and points a cell and axis, of which a call gives some."""
 	if placement not in ('uniform', 'gauss'): raise ValueError("mpm.fill: placement = %r: choose 'uniform' or 'gauss'" % (placement,))
-	if points is not None and not (isNumber(points) and int(points) == points and 1 <= points <= 10):
+	if points is not None and not (isWhole(points) and 1 <= points <= 10):
 		raise ValueError('mpm.fill: points = %r: give the points a cell and axis, a whole number from 1 to 10' % (points,))
 	if cellSize is not None: positive('cellSize', cellSize)
 	if placement == 'gauss':
@@ -334,12 +337,12 @@ def _append(caller, position, velocity, volume, depth, size, density, material, 
 	velocity = numpy.array(numpy.broadcast_to(velocity, (n, 3)))
 	if plane and (velocity[:, 2] != 0).any():
 		raise ValueError('%s: velocity = %s: points of a plane problem do not move along z' % (caller, velocity[(velocity[:, 2] != 0).argmax()]))
-	if mask is not None and not (isNumber(mask) and int(mask) == mask and 0 <= mask < 2**31):
+	if mask is not None and not (isWhole(mask) and 0 <= mask < 2**31):
 		raise ValueError('%s: mask = %r: give a whole number from 0 to 2^31 - 1' % (caller, mask))
 	if color is not None: color = Vector3(*vector(caller, 'color', color, 'three numbers in [0, 1]'))
 	if color is not None and not all(0 <= c <= 1 for c in color): raise ValueError('%s: color = %s: give three numbers in [0, 1]' % (caller, color))
 	if not bodies and (mask is not None or color is not None): raise ValueError('%s: mask = %r, color = %r with bodies=False: points without bodies have neither; leave them out' % (caller, mask, color))
-	if group is not None and not (isinstance(group, str) and group) and not (isNumber(group) and int(group) == group and 0 <= group <= 255):
+	if group is not None and not (isinstance(group, str) and group) and not (isWhole(group) and 0 <= group <= 255):
 		raise ValueError('%s: group = %r: give a name, or a number from 0 (none) to 255' % (caller, group))
 	name = group if isinstance(group, str) else ''
 	if size is None: size = numpy.sqrt(volume/numpy.abs(depth)) if plane else numpy.cbrt(volume)

@@ -73,6 +73,7 @@ def case(random):
 	said = '%s.%s = %r' % (who, name, value)
 	try: give(value)
 	except (RuntimeError, ValueError, TypeError, KeyError, MemoryError, OverflowError, AttributeError, IndexError, FileNotFoundError, PermissionError) as fault:
+		if who == 'O': return  # YADE's own check, of YADE's own attribute
 		if who.startswith('mpm.'):
 			lacks = complaint(fault) if not isinstance(fault, (AttributeError, OverflowError, IndexError)) else 'refused by a %s: %s' % (type(fault).__name__, fault)
 			if lacks or who not in str(fault): return '%s: %s' % (said, lacks or 'the complaint does not name the function: %s' % fault)

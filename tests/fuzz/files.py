@@ -85,7 +85,7 @@ def case(random):
 			O.run(2, True)
 			O.save(file + '.again.xml')
 		except Exception as fault:
-			if not str(fault): return '%s: an error without a word, %r' % ('; '.join(what), fault)
+			if not str(fault) and not isinstance(fault, MemoryError): return '%s: an error without a word, %r' % ('; '.join(what), fault)
 		with open(file, 'w') as f: f.write(whole)  # the program goes on
 		try:
 			O.load(file)

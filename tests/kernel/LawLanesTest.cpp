@@ -4,6 +4,7 @@ alone, to rounding, for every law and option, stress state, instruction set, sma
 #include "kernel/laws/LawLanes.hpp"
 #include "EveryLaw.hpp"
 #include "kernel/Kinematics.hpp"
+#include <cstring>
 #include <gtest/gtest.h>
 
 using namespace yade::mpm;
@@ -91,6 +92,37 @@ TYPED_TEST(LawLanes, ArePointsAlone)
 				comparePaths<TypeParam>(named.law, set, largeStrain, 17);
 			}
 		}
+}
+
+/* Two laws are equal only if every parameter is: a change of the last bit of any makes another law of it. */
+TEST(LawTest, EveryParameterCounts)
+{
+	for (const NamedLaw& named : everyLaw()) {
+		EXPECT_TRUE(named.law == Law(named.law)) << named.name;
+		Law other   = named.law;
+		other.model = is<J2>(other) ? Model(DruckerPrager()) : Model(J2());
+		EXPECT_FALSE(other == named.law) << named.name;
+		other         = named.law;
+		other.density = std::nextafter(other.density, 1e300);
+		EXPECT_FALSE(other == named.law) << named.name;
+		for (double Hooke::*parameter : { &Hooke::young, &Hooke::poisson }) {
+			other                    = named.law;
+			other.elastic.*parameter = std::nextafter(other.elastic.*parameter, 1e300);
+			EXPECT_FALSE(other == named.law) << named.name;
+		}
+		named.law.visit([&](const auto& model) {
+			using M = std::decay_t<decltype(model)>;
+			static_assert(std::is_trivially_copyable_v<M>);
+			for (std::size_t at = 0; at + sizeof(double) <= sizeof(M); at += sizeof(double)) { // a number, or a choice in its lower half
+				unsigned char bytes[sizeof(M)];
+				std::memcpy(bytes, &model, sizeof(M));
+				bytes[at] ^= 1;
+				other = named.law;
+				std::memcpy(static_cast<void*>(&as<M>(other)), bytes, sizeof(M));
+				EXPECT_FALSE(other == named.law) << named.name << ", byte " << at;
+			}
+		});
+	}
 }
 
 /* A lane strained by thousands of yield strains, or by more than can be followed, has a way of its own; the others do not notice. */

@@ -123,7 +123,7 @@ void use(Saved& s)
 	Continuity continuity;
 	continuity.memory = s.memory;
 	continuity.widest(scene.points, scene.laws, scene.walls);
-	scene.solver->acousticTimeStep(Scheme::musl);
+	scene.solver->acousticTimeStep(scene.control);
 	for (int k = 0; k < 2; ++k)
 		scene.step();
 	scene.solver->finish();

@@ -104,6 +104,25 @@ refuses('density scaling', 'O.bodies[2].state.densityScaling', 'NewtonIntegrator
 refuses('more threads than any machine has', 'MpmEngine.ompThreads = 200000', 'one a core', spoil=lambda ids, grid: setattr(grid, 'ompThreads', 200000),
 	repair=lambda ids, grid: setattr(grid, 'ompThreads', 1))
 
+# ---- contacts that YADE cannot compute -----------------------------------------------------------------------------------------
+def touching(material, poisson=0):
+	"""Points of a material under a grain that touches them."""
+	O.reset()
+	O.materials.append(material)
+	O.materials.append(FrictMat(label='grain', young=1e6, poisson=poisson, density=1000))
+	mpm.fill(((0, 0, 0), (1, 1, .5)), spacing=.25, material=0)
+	O.bodies.append(utils.sphere((.5, .5, .7), .25, material='grain'))
+	O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+		[Law2_ScGeom_FrictPhys_CundallStrack()]), MpmEngine(cellSize=.5, analysis='3d', gravity=(0, 0, -10)), NewtonIntegrator()]
+	O.dt = 1e-4
+	O.run(20, True)
+
+
+for part in "ElastMat 'soft'", 'give the points a FrictMat': raises('ElastMat beside an InteractionLoop', RuntimeError, part, lambda: touching(ElastMat(label='soft', young=1e6, poisson=.3, density=1000)))
+for part in 'O.forces.f(', 'poisson = 0', 'give one of them a small': raises('a contact of two materials with poisson = 0', RuntimeError, part, lambda: touching(FrictMat(label='soft', young=1e6, poisson=0, density=1000)))
+touching(FrictMat(label='soft', young=1e6, poisson=1e-3, density=1000), poisson=1e-3)
+equal('with a small poisson it runs', O.iter, 20)
+
 # ---- kinematics ------------------------------------------------------------------------------------------------------------
 pressed = lambda **how: block(velocity=(0, -3, 0), walls=[MpmWall(normal=(0, 1, 0), kind='slip')], **how)
 for start in True, False:

@@ -113,21 +113,22 @@ O.run(10, True)
 
 # ---- loaded and changed, changed without loading ----------------------------------------------------------------------------
 def twins(what, change, steps=40, law=None, **how):
-	"""The same change before and after loading: same steps of time, same state, same refusal at the same step."""
+	"""The same change without saving, before saving and after loading: same steps of time, same state, same refusal at the same step."""
 	ends = []
-	for loaded in False, True:
+	for loaded in '', 'before', 'after':
 		material = law() if law else None  # anew, as the change is one of the material itself
 		ids, grid = block(velocity=(0, -3, 0), material=material, **dict(dict(analysis='planeStrain', walls=[MpmWall(normal=(0, 1, 0))]), **how))
 		O.run(25, True)
-		if loaded:
-			O.saveTmp()
-			O.loadTmp()
+		if loaded == 'after': O.saveTmp(), O.loadTmp()
 		change(ids, [e for e in O.engines if isinstance(e, MpmEngine)][0])
+		if loaded == 'before': O.saveTmp(), O.loadTmp()
 		said = message(lambda: O.run(steps, True))
-		ends.append((said, O.iter, O.time, O.dt, state()))
-	one, two = ends
-	equal(what + ': same steps, same refusal', two[:4], one[:4])
-	for name in one[4]: same('%s: %s' % (what, name), two[4][name], one[4][name])
+		ends.append((loaded, (said, O.iter, O.time, O.dt), state()))
+	one = ends[0]
+	for loaded, end, points in ends[1:]:
+		equal('%s, %s: same steps, same refusal' % (what, loaded), end, one[1])
+		for name in points: same('%s, %s: %s' % (what, loaded, name), points[name], one[2][name])
+	return one[1][0]
 
 
 twins('no change', lambda ids, grid: None)
@@ -149,6 +150,9 @@ for name, value in ('yieldStress', 2e4), ('n', 2), ('tangentRatio', .2), ('beta'
 		setattr(O.materials[0], name, value)
 		if name == 'beta': O.materials[0].gamma = 1.2
 	twins('a material changed: ' + name, change, law=steel)
+for name, value in ('isotropicModulus', 1e5), ('stiffnessDegradation', .1), ('reloading', 2):
+	said = twins('a material changed: ' + name, lambda ids, grid: setattr(O.materials[0], name, value), law=steel)
+	if name != 'isotropicModulus': check(name + ' needs other internal variables: refused', 'other internal variables' in said, said)
 twins('a heavier point', lambda ids, grid: setattr(O.bodies[ids[3]].state, 'mass', 1e-5*O.bodies[ids[3]].state.mass), timeStepSafety=.1)
 twins('a larger step, refused', lambda ids, grid: setattr(O, 'dt', 4*O.dt))
 twins('a step near the limit that grows shorter', lambda ids, grid: None, courant=.98, steps=200)

@@ -166,4 +166,52 @@ refused('no such quantity', "MpmVtkRecorder.recorders = 'stres': choose among 'i
 refused('no displacement without bodies', "MpmVtkRecorder.recorders = 'displacement'", recorders=['displacement'], bodies=False)
 refused('a file that cannot be written', 'MpmVtkRecorder: cannot write', fileName='/proc/x-')
 
+
+# files appear whole, under a name of their own, or the run ends
+def recording(name, **attributes):
+	"""A block in motion with a recorder at each step, and one with the grid where asked for."""
+	ids, grid = block(velocity=(.1, 0, 0))
+	recorder = MpmVtkRecorder(**dict(dict(fileName=path(name), iterPeriod=1, recorders=['id']), **attributes))
+	O.engines = O.engines + [recorder]
+	return grid, recorder
+
+
+grid, recorder = recording('again-')
+O.run(3, True)
+first = {file: open(file, 'rb').read() for file in recorder.files + [path('again-points.pvd')]}
+O.resetTime()
+raises('after O.resetTime() a name comes again', RuntimeError, "MpmVtkRecorder.fileName = '%s': %s has been written already, before O.resetTime(); give another fileName"
+	% (path('again-'), path('again-points.0.vtu')), lambda: O.run(1, True))
+equal('and nothing is overwritten', {file: open(file, 'rb').read() for file in first}, first)
+recorder.fileName = path('then-')
+O.run(6, True)
+check('with another name it goes on', os.path.exists(path('then-points.pvd')) and collection(path('then-points.pvd'))[-1][1].startswith('then-'), os.listdir(folder.name))
+
+for name, taken in ('list-', 'points.pvd'), ('file-', 'points.0.vtu'):
+	os.mkdir(path(name + taken))
+	recording(name)
+	raises('a folder in the place of %s' % taken, RuntimeError, 'cannot write ' + path(name + taken), lambda: O.run(1, True))
+equal('no half-written file is left', [file for file in os.listdir(folder.name) if file.endswith('.part')], [])
+
+# the grid's times are those of its own files
+grid, recorder = recording('switch-', recorders=['id', 'grid'])
+O.run(2, True)
+recorder.recorders = ['id']
+O.run(3, True)
+recorder.recorders = ['id', 'grid']
+O.run(1, True)
+equal('files of a grid that is switched off and on', [f for _, f in collection(path('switch-grid.pvd'))], ['switch-grid.%d.vtu' % k for k in (0, 1, 5)])
+near('and their times', [t for t, _ in collection(path('switch-grid.pvd'))], [0, O.dt, 5*O.dt], 1e-12)
+
+# mpm.criticalTimeStep() leaves the grid that is shown alone
+shown = []
+for asked in False, True:
+	grid, recorder = recording('asked-%d-' % asked, recorders=['velocity', 'grid'], dead=True)
+	O.run(3, True)
+	if asked: mpm.criticalTimeStep()
+	recorder.dead = False
+	recorder()
+	shown.append(read(recorder.gridFiles[-1])[1]['velocity'])
+same('nodal velocities after mpm.criticalTimeStep()', shown[1], shown[0])
+
 finish()
