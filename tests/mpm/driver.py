@@ -160,7 +160,8 @@ metal = dict(shared, yieldStress=(positive, 'positive stress [Pa]'), tangentRati
 	saturationStress=(notNegative, '0 or more'), saturationRate=(notNegative, '0 or more'))
 bounds = {
 	J2Mat: metal,
-	DruckerPragerMat: dict(shared, cohesion=(notNegative, '0 or more'), internalFriction=((-.1, 1.57, nan), 'below 1.57 [rad]'), dilatancy=((-.1, .6, nan), '0 to internalFriction')),
+	DruckerPragerMat: dict(shared, cohesion=(notNegative, '0 or more'), internalFriction=((-.1, 1.57, nan), 'below 1.57 [rad]'), dilatancy=((-.1, .6, nan), '0 to internalFriction'),
+		match=(('triaxial', ''), "'planeStrain' or 'inscribed'")),
 	BoucWenMat: dict(metal, n=(positive, 'positive exponent'), gamma=((.4,), 'abs(beta)'), tolerance=((0, 1e-14, .2, nan), '1e-13 to 0.1'), strengthDegradation=(notNegative, '0 or more'),
 		stiffnessDegradation=((-1, 2.1, nan), '0 to 2'), pinching=((-.1, 1, nan), '0 to below 1'), pinchingRate=(positive, 'positive number'), pinchingLevel=((-.1, 1, nan), '0 to below 1'),
 		pinchingWidth=(positive, 'positive part'), reloading=((.5, -1, nan), 'infinity'), loadingRule=(('papers',), "'normal'")),
