@@ -88,11 +88,10 @@ Continuity::Gap Continuity::widest(const Points& points, const std::vector<Law>&
 	return gap;
 }
 
-Continuity::Slot* Continuity::slotOf(int id)
+const std::pair<int, Continuity::Slot>* Continuity::slotOf(int id) const
 {
-	auto&             slots = id >= 0 ? m_bodies : m_loose;
-	const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
-	return at < slots.size() ? &slots[at] : nullptr;
+	const auto found = std::lower_bound(m_slots.begin(), m_slots.end(), std::make_pair(id, Slot(0)));
+	return found != m_slots.end() && found->first == id ? &*found : nullptr;
 }
 
 /* Finds the points' places; false where nothing is known, or there is a point that has not been seen before. */
@@ -101,22 +100,18 @@ bool Continuity::locate(const Points& points)
 	const std::size_t n = memory.ids.size();
 	if (n == 0 || memory.neighbours.size() != n * std::size_t(dimensionOf(points))) return false; // of points of another dimension
 	if (m_place.size() != n) {                                                                    // of a memory that has been loaded
-		m_bodies.clear(), m_loose.clear();
-		for (std::size_t slot = 0; slot < n; ++slot) {
-			const int         id    = memory.ids[slot];
-			auto&             slots = id >= 0 ? m_bodies : m_loose;
-			const std::size_t at    = std::size_t(id >= 0 ? id : -1 - id);
-			if (slots.size() <= at) slots.resize(std::max(at + 1, 2 * slots.size()), Slot(-1));
-			slots[at] = Slot(slot);
-		}
+		m_slots.clear();
+		for (std::size_t slot = 0; slot < n; ++slot)
+			m_slots.emplace_back(memory.ids[slot], Slot(slot));
+		std::sort(m_slots.begin(), m_slots.end());
 	} else if (points.generation == m_generation && points.count() == m_count)
 		return true;
 	m_generation = points.generation, m_count = points.count();
 	m_place.assign(n, nowhere);
 	for (std::size_t p = 0; p < points.count(); ++p) {
-		const Slot* slot = slotOf(points.id[p]);
-		if (!slot || *slot == Slot(-1)) return false;
-		m_place[*slot] = p;
+		const auto* slot = slotOf(points.id[p]);
+		if (!slot) return false;
+		m_place[slot->second] = p;
 	}
 	return true;
 }

@@ -51,14 +51,14 @@ public:
 private:
 	static constexpr std::size_t nowhere = std::size_t(-1);
 	// made from the memory
-	std::vector<Slot>        m_bodies, m_loose;             // slots of the points with ids 0, 1, ... and -1, -2, ...
-	std::vector<std::size_t> m_place;                       // of each slot, in the arrays as they stand, or nowhere
-	std::size_t              m_generation = 0, m_count = 0; // of the points that m_place is good for
+	std::vector<std::pair<int, Slot>> m_slots;                       // id and slot, sorted: ids may be of any size
+	std::vector<std::size_t>          m_place;                       // of each slot, in the arrays as they stand, or nowhere
+	std::size_t                       m_generation = 0, m_count = 0; // of the points that m_place is good for
 
-	Slot* slotOf(int id);
-	bool  locate(const Points& points);
-	void  findNeighbours(const Points& points, const std::vector<Law>& laws);
-	void  findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
+	const std::pair<int, Slot>* slotOf(int id) const;
+	bool                        locate(const Points& points);
+	void                        findNeighbours(const Points& points, const std::vector<Law>& laws);
+	void                        findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
 };
 
 } // namespace yade::mpm
