@@ -45,7 +45,8 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 	double *          f[dim], *v[dim];
 	const double *    x[dim], *u[dim];
 	for (std::size_t d = 0; d < dim; ++d)
-		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(), u[d] = points.advance[d].data();
+		f[d] = points.force[d].data(), v[d] = points.velocity[d].data(), x[d] = points.position[d].data(),
+		u[d] = points.displacementIncrement[d].data();
 	const int* const  ids       = points.id.data();
 	const auto* const materials = all.materials.data();
 
@@ -70,7 +71,7 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 			refused = true;
 			continue;
 		}
-		const bool before = !points.touched.empty() && points.touched[p]; // then it shows another velocity than its own
+		const bool before = !points.inContact.empty() && points.inContact[p]; // then it shows another velocity than its own
 		Real       gone   = 0;
 		if (before || points.energies.started) takeVelocity(points, p, before, velocity);
 		for (int d = 0; d < dim; ++d) {
@@ -80,9 +81,9 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 		}
 		if (dim == 2) offPlane += std::abs(position[2]) + std::abs(velocity[2]);
 		if (gone != 0) changes.moved.push_back(p);
-		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.fixed.empty()) {
-			points.fixed.resize(n, 0);
-			points.fixed[p] = fixed;
+		if (const auto fixed = std::uint8_t(state.blockedDOFs & 7); fixed || !points.prescribedDofs.empty()) {
+			points.prescribedDofs.resize(n, 0);
+			points.prescribedDofs[p] = fixed;
 		}
 		// interactions without geometry and physics are the collider's guesses, which a saved scene lacks
 		const auto real    = [](const auto& i) { return i.second->geom && i.second->phys; };
@@ -120,7 +121,7 @@ void BodyLinks::takeVelocity(mpm::Points& points, std::size_t p, bool touched, c
 	for (std::size_t d = 0; d < points.force.size(); ++d) {
 		Real&      v   = points.velocity[d][p];
 		const Real old = v;
-		v              = touched ? old + (shown[int(d)] - points.moving[d][p]) : shown[int(d)];
+		v              = touched ? old + (shown[int(d)] - points.contactVelocity[d][p]) : shown[int(d)];
 		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
 	}
 }
@@ -152,8 +153,8 @@ void BodyLinks::refuseStates(Scene& scene, const mpm::Points& points, int dim) c
 /* Torque on a point that touches another body; one that has stopped doing so shows its own velocity again. */
 void BodyLinks::readContact(Scene& scene, mpm::Points& points, std::size_t p, bool touched, State& state) const
 {
-	if (points.touched.empty()) points.prepareContacts();
-	points.touched[p] = touched;
+	if (points.inContact.empty()) points.prepareContacts();
+	points.inContact[p] = touched;
 	if (touched) {
 		const Vector3r& torque = scene.forces.getTorque(points.id[p]);
 		if (!torque.allFinite())
@@ -162,7 +163,7 @@ void BodyLinks::readContact(Scene& scene, mpm::Points& points, std::size_t p, bo
 		for (std::size_t k = 0, turns = points.torque.size(); k < turns; ++k)
 			points.torque[k][p] = torque[turns == 3 ? int(k) : 2];
 	} else {
-		for (std::size_t d = 0; d < points.moving.size(); ++d)
+		for (std::size_t d = 0; d < points.contactVelocity.size(); ++d)
 			state.vel[int(d)] = points.velocity[d][p];
 		state.angVel = Vector3r::Zero();
 	}
@@ -170,7 +171,7 @@ void BodyLinks::readContact(Scene& scene, mpm::Points& points, std::size_t p, bo
 
 void BodyLinks::write(Scene& scene, const mpm::Points& points) const
 {
-	const std::size_t dim    = points.advance.size();
+	const std::size_t dim    = points.displacementIncrement.size();
 	const auto&       bodies = scene.bodies->body;
 	bool              outrun = false;
 	for (std::size_t p = 0; p < points.count(); ++p) {
@@ -178,10 +179,10 @@ void BodyLinks::write(Scene& scene, const mpm::Points& points) const
 		if (points.id[p] < 0 || id >= bodies.size() || !m_links[id].holds(bodies[id])) continue; // erased from another thread meanwhile
 		const Link& link    = m_links[id];
 		State&      state   = *link.state;
-		const bool  touched = !points.touched.empty() && points.touched[p];
+		const bool  touched = !points.inContact.empty() && points.inContact[p];
 		for (std::size_t d = 0; d < dim; ++d) {
-			state.se3.position[int(d)] = points.position[d][p] + points.advance[d][p];
-			state.vel[int(d)]          = (touched ? points.moving : points.velocity)[d][p];
+			state.se3.position[int(d)] = points.position[d][p] + points.displacementIncrement[d][p];
+			state.vel[int(d)]          = (touched ? points.contactVelocity : points.velocity)[d][p];
 		}
 		for (std::size_t k = 0, turns = points.spin.size(); k < turns && touched; ++k)
 			state.angVel[turns == 3 ? int(k) : 2] = points.spin[k][p];

@@ -32,17 +32,17 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e
 	archive& make_nvp("dissipation", e.dissipation) & make_nvp("external", e.external) & make_nvp("damping", e.damping);
 	archive& make_nvp("walls", e.walls) & make_nvp("started", e.started);
 }
-/* The columns under their own names; advance is never pending when a scene is saved, forces are YADE's. */
+/* The columns under their own names; no displacementIncrement is pending when a scene is saved, forces are YADE's. */
 template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Points& points)
 {
-	archive& make_nvp("id", points.id) & make_nvp("material", points.material) & make_nvp("fixed", points.fixed);
+	archive& make_nvp("id", points.id) & make_nvp("material", points.material) & make_nvp("prescribedDofs", points.prescribedDofs);
 	archive& make_nvp("group", points.group) & make_nvp("initialStress", points.initialStress);
 	archive& make_nvp("mass", points.mass) & make_nvp("volume0", points.volume0) & make_nvp("size", points.size);
 	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
-	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
+	archive& make_nvp("inContact", points.inContact) & make_nvp("contactVelocity", points.contactVelocity);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)

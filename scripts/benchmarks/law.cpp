@@ -114,12 +114,12 @@ public:
 				auto&        block = m_blocks[p / lanes];
 				const int    l     = int(p % lanes);
 				const double e     = next(m_phase[p]);
-				Reals<1>     strain[N] { { e }, { -.2 * e }, { .5 * e } }, sigma[N], internal[maxInternals(N)];
+				Pack<1>      strain[N] { { e }, { -.2 * e }, { .5 * e } }, sigma[N], internal[maxInternals(N)];
 				transfer(
-					block, [&](Reals<1>& mine, Lanes& its) { mine[0] = its[l]; }, sigma, internal);
+					block, [&](Pack<1>& mine, Lanes& its) { mine[0] = its[l]; }, sigma, internal);
 				as<BoucWen>(m_law).update<State>(m_law.elastic, strain, sigma, internal, heat, &count);
 				transfer(
-					block, [&](Reals<1>& mine, Lanes& its) { its[l] = mine[0]; }, sigma, internal);
+					block, [&](Pack<1>& mine, Lanes& its) { its[l] = mine[0]; }, sigma, internal);
 			}
 		return double(count) / steps / points;
 	}

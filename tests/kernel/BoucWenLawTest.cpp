@@ -253,7 +253,7 @@ TEST(BoucWenLaw, NoStepTakesForEver)
 				Law one                      = boucWenLaw(n, alpha, 1e-4);
 				as<BoucWen>(one).yieldStress = yield * youngModulus;
 				const BoucWen& law           = as<BoucWen>(one);
-				Reals<1>       e[3], sigma[3] {}, internal[8] {};
+				Pack<1>        e[3], sigma[3] {}, internal[8] {};
 				Responses<1>   response;
 				for (const double sign : { 1., -1. }) {
 					int subSteps = 0;

@@ -39,11 +39,11 @@ struct Touched {
 				distance += std::abs(scene.points.position[std::size_t(d)][p] - lower[std::size_t(d)] - half);
 			if (distance < nearest) nearest = distance, point = p;
 		}
-		scene.points.touched[point] = 1;
+		scene.points.inContact[point] = 1;
 	}
 	std::size_t now() const // sorting moves points
 	{
-		const auto& touched = scene.points.touched;
+		const auto& touched = scene.points.inContact;
 		return std::size_t(std::find(touched.begin(), touched.end(), 1) - touched.begin());
 	}
 };
@@ -112,7 +112,7 @@ TEST(ContactTest, ATouchedPointShowsTheMotionOfTheMaterial)
 		t.scene.step();
 		const std::size_t p = t.now();
 		for (int d = 0; d < t.dim; ++d)
-			EXPECT_NEAR(t.scene.points.moving[std::size_t(d)][p], before[std::size_t(d)][t.point], 1e-12);
+			EXPECT_NEAR(t.scene.points.contactVelocity[std::size_t(d)][p], before[std::size_t(d)][t.point], 1e-12);
 		for (std::size_t k = 0; k < t.scene.points.spin.size(); ++k)
 			EXPECT_NEAR(t.scene.points.spin[k][p], omega[solid ? k : 2], 1e-11);
 	});

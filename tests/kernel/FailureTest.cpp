@@ -102,8 +102,8 @@ TEST(FailureTest, PointLeavesTheWalls)
 		std::size_t at = 0;
 		for (std::size_t p = 0; p < s.points.count(); ++p)
 			if (s.points.position[0][p] < s.points.position[0][at]) at = p;
-		s.points.fixed.assign(s.points.count(), 0);
-		s.points.fixed[at] = 1, s.points.velocity[0][at] = -80; // told to go through
+		s.points.prescribedDofs.assign(s.points.count(), 0);
+		s.points.prescribedDofs[at] = 1, s.points.velocity[0][at] = -80; // told to go through
 		int               id   = -1;
 		const std::string text = failure(s, 1, id);
 		EXPECT_EQ(id, s.points.id[at]);
@@ -112,7 +112,7 @@ TEST(FailureTest, PointLeavesTheWalls)
 		// put right: the step is completed, the point goes back
 		s.solver->finish();
 		EXPECT_LT(s.points.position[0][at], 0);
-		s.points.position[0][at] = .01, s.points.velocity[0][at] = 0, s.points.fixed.clear();
+		s.points.position[0][at] = .01, s.points.velocity[0][at] = 0, s.points.prescribedDofs.clear();
 		makeSound(s);
 		s.solver->pointsChanged();
 		s.run(20);

@@ -156,9 +156,9 @@ TEST(FullMassTest, EnergyBalanceIsOfTheOrderOfTheStep)
 			s.walls             = { Scene::wall(0, 1, 0, Wall::Kind::fixed), Scene::wall(1, 1, 0, Wall::Kind::slip) };
 			s.walls[0].velocity = { .5, .2, 0 };
 			s.addBox(2, { 0, 0, 0 }, { 1, .5, 0 }, .0625);
-			s.points.fixed.assign(s.points.count(), 0);
+			s.points.prescribedDofs.assign(s.points.count(), 0);
 			for (std::size_t p = 0; p < s.points.count(); ++p)
-				if (s.points.position[0][p] > .9 && s.points.position[1][p] > .4) s.points.fixed[p] = 1;
+				if (s.points.position[0][p] > .9 && s.points.position[1][p] > .4) s.points.prescribedDofs[p] = 1;
 			s.setVelocity([](auto x) { return std::array<double, 3> { .5 + 3 * x[0], 3 * x[1] - 2 * x[0], 0 }; });
 			s.control.fullMass = s.control.trackEnergy = true;
 			s.control.dt = 2e-4 / (1 << level), s.control.flip = 1 - (1 - flip) / (1 << level);

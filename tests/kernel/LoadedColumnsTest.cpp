@@ -62,9 +62,9 @@ public:
 			case 9: return columns("internal", points.internal);
 			case 10: return columns("deformation", points.deformation);
 			case 11: return column("thicknessStretch", points.thicknessStretch);
-			case 12: return column("fixed", points.fixed);
-			case 13: return column("touched", points.touched);
-			case 14: return columns("moving", points.moving);
+			case 12: return column("prescribedDofs", points.prescribedDofs);
+			case 13: return column("inContact", points.inContact);
+			case 14: return columns("contactVelocity", points.contactVelocity);
 			case 15: return column("ids", memory.ids);
 			case 16: return column("neighbours", memory.neighbours);
 			case 17: return column("footings", memory.footings);

@@ -180,9 +180,9 @@ struct Footing {
 		s.addBox(2, { 0, -2, 0 }, { 4, 0, 0 }, h / 2);
 		const std::size_t soil = s.points.count();
 		s.addBox(2, { 0, 0, 0 }, { 1, 4 * h, 0 }, h / 2);
-		s.points.fixed.resize(s.points.count());
+		s.points.prescribedDofs.resize(s.points.count());
 		for (std::size_t p = soil; p < s.points.count(); ++p)
-			s.points.fixed[p] = 3, s.points.material[p] = 1;
+			s.points.prescribedDofs[p] = 3, s.points.material[p] = 1;
 		s.control.largeStrain = false, s.control.damping = .1, s.control.meanDilatation = mean;
 		s.start(Analysis::planeStrain, shape, h);
 		s.control.dt = .4 * s.solver->criticalTimeStep(Scheme::musl);
@@ -196,7 +196,7 @@ struct Footing {
 		for (int k = 0; k < steps; ++k) {
 			const double v = depth / time * std::min(1., s.control.time / (.2 * time));
 			for (std::size_t p = 0; p < s.points.count(); ++p)
-				if (s.points.fixed[p]) s.points.velocity[1][p] = -v;
+				if (s.points.prescribedDofs[p]) s.points.velocity[1][p] = -v;
 			s.step();
 			if (k >= steps - last) pressure -= s.walls[2].force[1] / last;
 		}
@@ -307,7 +307,7 @@ TEST(MeanDilatationTest, IsDeterministic)
 	for (int k = 0; k < 8; ++k)
 		for (Footing* f : { &one, &two, &looked }) {
 			for (std::size_t p = 0; p < f->scene.points.count(); ++p)
-				if (f->scene.points.fixed[p]) f->scene.points.velocity[1][p] = -.1;
+				if (f->scene.points.prescribedDofs[p]) f->scene.points.velocity[1][p] = -.1;
 			f->scene.step();
 			if (f == &looked) f->scene.solver->finish();
 		}

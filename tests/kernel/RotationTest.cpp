@@ -113,7 +113,7 @@ template <class S> void turnedOnTheGrid(Analysis analysis, const Eigen::Vector3d
 				const Eigen::Vector3d v = (R - Matrix::Identity()) * Eigen::Vector3d(x[0], x[1], x[2]) / dt;
 				return std::array<double, 3> { v[0], v[1], v[2] };
 			});
-			s.points.fixed.assign(s.points.count(), 7);
+			s.points.prescribedDofs.assign(s.points.count(), 7);
 			s.start(analysis, shape, h);
 			const double sigma0[6] = { 300, -100, 50, 70, -40, 110 }, eta0[6] = { 20, -10, -10, 3, 4, -7 };
 			for (std::size_t k = 0; k < std::size_t(S::N); ++k)

@@ -199,9 +199,9 @@ TEST(SolverInvariantsTest, OnlyPrescribedComponentsStayAsToldAndDragTheRest)
 		s.laws = { Scene::elastic(1e5, .3, 1000) };
 		s.addBox(2, { 0, 0, 0 }, { 1, 1, 0 }, .125);
 		s.control.dt = .002, method.set(s.control), s.control.gravity = { 0, -10, 0 };
-		s.points.fixed.assign(s.points.count(), 0);
+		s.points.prescribedDofs.assign(s.points.count(), 0);
 		for (std::size_t p = 0; p < s.points.count(); ++p)
-			if (s.points.position[0][p] < .25) s.points.fixed[p] = 1, s.points.velocity[0][p] = -.5; // x alone
+			if (s.points.position[0][p] < .25) s.points.prescribedDofs[p] = 1, s.points.velocity[0][p] = -.5; // x alone
 		s.start(Analysis::planeStress, ShapeKind::cubic, .25);
 		const Columns X = s.points.position;
 		s.run(100);
@@ -209,8 +209,8 @@ TEST(SolverInvariantsTest, OnlyPrescribedComponentsStayAsToldAndDragTheRest)
 		double dragged    = 0;
 		for (std::size_t p = 0; p < s.points.count(); ++p) {
 			const std::size_t id = std::size_t(s.points.id[p]);
-			ASSERT_EQ(s.points.fixed[p], X[0][id] < .25) << "flags have not followed the sorting";
-			if (s.points.fixed[p]) {
+			ASSERT_EQ(s.points.prescribedDofs[p], X[0][id] < .25) << "flags have not followed the sorting";
+			if (s.points.prescribedDofs[p]) {
 				++prescribed;
 				EXPECT_EQ(s.points.velocity[0][p], -.5);
 				EXPECT_NEAR(s.points.position[0][p], X[0][id] - .5 * .2, 1e-13);

@@ -84,7 +84,7 @@ public:
 		((Vector3r, reaction, Vector3r(1, 2, 3), Attr::readonly, "A vector that scripts only read"))
 		((shared_ptr<ProbeItem>, item, , , "One object"))
 		((vector<shared_ptr<ProbeItem>>, items, , , "Several objects"))
-		((vector<Real>, reals, , , "Reals"))
+		((vector<Real>, reals, , , "Pack"))
 		((vector<int>, ints, , , "Integers"))
 		((Real, scratch, 7, Attr::noSave, "Not saved"))
 		((Real, watched, 0, Attr::triggerPostLoad, "Setting it calls postLoad"))

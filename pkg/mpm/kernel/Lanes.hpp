@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "Pack.hpp"
 #include "Points.hpp"
-#include "Reals.hpp"
 
 namespace yade::mpm {
 
 /* The passes work on blocks of points, one lane a point. Lanes beyond the last point of a block repeat it, so that a point's
 result does not depend on how many share its block. */
 constexpr int lanes = 8;
-using Lanes         = Reals<lanes>;
+using Lanes         = Pack<lanes>;
 
 struct Block {
 	std::size_t first;

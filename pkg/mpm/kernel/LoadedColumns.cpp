@@ -59,10 +59,11 @@ std::string faultOf(const Points& points, std::size_t materials)
 	fault                 = first(number("deformation", points.deformation.size(), { dim * dim }), lengths("stress", points.stress, n),
 				lengths("internal", points.internal, n), lengths("deformation", points.deformation, n),
 				optional("thicknessStretch", points.thicknessStretch.size(), n), optional("dissipation", points.dissipation.size(), n),
-				optional("freeStrain", points.freeStrain.size(), n), optional("fixed", points.fixed.size(), n), optional("touched", points.touched.size(), n),
-				optional("group", points.group.size(), n), number("initialStress", points.initialStress.size(), { 0, 6 }),
-				lengths("initialStress", points.initialStress, n), number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }),
-				lengths("moving", points.moving, n));
+				optional("freeStrain", points.freeStrain.size(), n), optional("prescribedDofs", points.prescribedDofs.size(), n),
+				optional("inContact", points.inContact.size(), n), optional("group", points.group.size(), n),
+				number("initialStress", points.initialStress.size(), { 0, 6 }), lengths("initialStress", points.initialStress, n),
+				number("contactVelocity", points.contactVelocity.size(), { points.inContact.empty() ? 0 : dim }),
+				lengths("contactVelocity", points.contactVelocity, n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";

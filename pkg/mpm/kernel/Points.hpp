@@ -35,8 +35,8 @@ struct Traction;
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
-thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress), fixed (no
-prescribed motion), touched, moving, spin, torque (no contacts).
+thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress),
+prescribedDofs (no prescribed motion), inContact, contactVelocity, spin, torque (no contacts).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
@@ -47,16 +47,16 @@ struct Points {
 	Columns                   position { 3 }, velocity { 3 }; // all three axes, whatever the analysis
 	Columns                   stress, internal, deformation;  // deformation: F, row-major
 	Columns                   initialStress;                  // xx yy zz yz zx xy [Pa], until the next step takes it over; NaN where none is given
-	Columns                   advance;                        // displacement of the current step, not yet in position while its stress update is pending
+	Columns                   displacementIncrement;          // displacement of the current step, not yet in position while its stress update is pending
 	Columns                   force;                          // external, but for gravity [N]
 	Column                    thicknessStretch;               // F_zz of thinning plane stress, hoop stretch of a ring
 	Column                    dissipation;                    // heat per undeformed volume [J/m3], where energies are tracked
 	Column                    freeStrain;                     // eps_zz in plane stress, of laws that do not keepsVolume()
 	Energies                  energies, upcoming;             // at the start of the last step; and what is known of the next
-	std::vector<std::uint8_t> fixed;                          // bit d: component d of the velocity is prescribed
-	std::vector<std::uint8_t> touched;                        // whether force follows the position: a contact's does; said anew at every step
-	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
-	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
+	std::vector<std::uint8_t> prescribedDofs;                 // bit d: component d of the velocity is prescribed
+	std::vector<std::uint8_t> inContact;                      // whether force follows the position, as a contact's does; set anew at every step
+	Columns                   contactVelocity, spin;          // of a point in contact in the last step: the velocity that moved it, half its curl
+	Columns                   torque;                         // on a point in contact [Nm]; like spin three components, z alone in the plane
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
 
@@ -69,7 +69,8 @@ struct Points {
 	{
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
-		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque })
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &displacementIncrement, &force, &contactVelocity,
+			     &spin, &torque })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -81,8 +82,8 @@ struct Points {
 		visit(id);
 		visit(material);
 		visit(group);
-		visit(fixed);
-		visit(touched);
+		visit(prescribedDofs);
+		visit(inContact);
 	}
 
 	/* Adds an undeformed, stress-free point; prepare() gives it the columns that the analysis needs. */
@@ -108,22 +109,22 @@ struct Points {
                                 columns[std::size_t(k)].resize(n, initial(k));
 		};
 		auto zero = [](int) { return 0.; };
-		shape(stress, components, zero), shape(internal, internals, zero), shape(advance, dim, zero);
+		shape(stress, components, zero), shape(internal, internals, zero), shape(displacementIncrement, dim, zero);
 		shape(deformation, dim * dim, [dim](int k) { return k % (dim + 1) == 0 ? 1. : 0.; });
 		shape(force, forces ? dim : 0, zero);
 		thicknessStretch.resize(stretch ? n : 0, 1.);
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
-		if (!fixed.empty()) fixed.resize(n, 0);
-		if (!touched.empty()) prepareContacts();
+		if (!prescribedDofs.empty()) prescribedDofs.resize(n, 0);
+		if (!inContact.empty()) prepareContacts();
 	}
 	/* Gives every point what points in contact need. */
 	void prepareContacts()
 	{
-		const std::size_t n = count(), dim = advance.size(), turns = dim == 3 ? 3 : dim - 1;
-		touched.resize(n, 0);
-		moving.resize(dim), spin.resize(turns), torque.resize(turns);
-		for (Columns* columns : { &moving, &spin, &torque })
+		const std::size_t n = count(), dim = displacementIncrement.size(), turns = dim == 3 ? 3 : dim - 1;
+		inContact.resize(n, 0);
+		contactVelocity.resize(dim), spin.resize(turns), torque.resize(turns);
+		for (Columns* columns : { &contactVelocity, &spin, &torque })
 			for (Column& column : *columns)
 				column.resize(n, 0.);
 	}

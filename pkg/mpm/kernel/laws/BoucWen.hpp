@@ -12,24 +12,24 @@ and rises again, at gamma > beta, and the two slopes may then agree by chance. T
 sum of the flows is the estimate. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
 [0.1, 2], and does not grow right after a failure. Loading forgets errors, so that those of a path do not add up. */
 template <class S, int W, class T>
-void BoucWen::update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>* internal, Responses<W, T>& response, int* subSteps) const
+void BoucWen::update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response, int* subSteps) const
 {
 	constexpr int              N   = S::N;
 	const BoucWen&             law = *this;
 	detail::Reloading<S, W, T> reloading;
-	Reals<W, T>*               scalars = internal + law.tensors() * N;
-	Reals<W, T>                shorter[N], fraction;
+	Pack<W, T>*                scalars = internal + law.tensors() * N;
+	Pack<W, T>                 shorter[N], fraction;
 	const bool                 far = detail::isFar<S>(law, C, strain);
 	if (far) detail::truncateIncrement<S>(law, C, strain, shorter, fraction);
 	auto run = [&](auto options) {
 		using Y = detail::BoucWenVector<S, options.value>;
-		Reals<W, T> y[Y::size] {};
+		Pack<W, T> y[Y::size] {};
 		std::copy(sigma, sigma + N, y), std::copy(internal, internal + N, y + Y::eta);
 		y[Y::p] = scalars[0], y[Y::dissipation] = response.dissipation;
 		if constexpr (options.value) {
 			if (law.degrades()) y[Y::e] = scalars[1], y[Y::compliance] = scalars[2];
 			if (law.remembers()) {
-				const Reals<W, T>* memory = scalars + law.scalars() - 2;
+				const Pack<W, T>* memory = scalars + law.scalars() - 2;
 				reloading.limit = memory[0], reloading.origin = memory[1];
 			}
 			if (law.paper()) std::copy(internal + N, internal + 2 * N, y + Y::strain);
@@ -40,7 +40,7 @@ void BoucWen::update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sig
 		if constexpr (options.value) {
 			if (law.degrades()) scalars[1] = y[Y::e], scalars[2] = y[Y::compliance];
 			if (law.remembers()) {
-				Reals<W, T>* memory = scalars + law.scalars() - 2;
+				Pack<W, T>* memory = scalars + law.scalars() - 2;
 				memory[0] = reloading.limit, memory[1] = reloading.origin;
 			}
 			if (law.paper()) std::copy(y + Y::strain, y + Y::strain + N, internal + N);
@@ -59,7 +59,7 @@ template <class S> void BoucWen::continuumTangent(const Hooke& C, const double* 
 	constexpr int N = S::N;
 	using T         = Dual<N>;
 	using Y         = detail::BoucWenVector<S, true>;
-	Reals<1, T>                e[N], De[N], y[Y::size] {}, dy[Y::size], mDe, step { { 1e-12 } };
+	Pack<1, T>                 e[N], De[N], y[Y::size] {}, dy[Y::size], mDe, step { { 1e-12 } };
 	detail::Reloading<S, 1, T> memory;
 	const double*              scalar = internal + tensors() * N;
 	T                          rate[N], stress[N];

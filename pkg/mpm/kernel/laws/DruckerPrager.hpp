@@ -108,7 +108,7 @@ struct DruckerPrager : LawDefaults {
 		dissipation += shrink * q * dp + (P - dP) * dP / bulk;
 	}
 	template <class S, int W, class T>
-	void update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>* internal, Responses<W, T>& response) const
+	void update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response) const
 	{
 		updateInSolid<S>(
 			C, [&](auto state, auto&&... point) { returnToCone<decltype(state)>(C, point...); }, strain, sigma, internal[0], response);

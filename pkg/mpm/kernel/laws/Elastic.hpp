@@ -15,7 +15,7 @@ struct Elastic : LawDefaults {
 	Internals internals() const { return {}; }
 	void      check(const Hooke&, Check&) const {}
 
-	template <class S, int W, class T> void update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>*, Responses<W, T>&) const
+	template <class S, int W, class T> void update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>*, Responses<W, T>&) const
 	{
 		constexpr int N = S::N;
 		forLanes<W>([&](int l) {

@@ -13,13 +13,13 @@ the rule of false position with Illinois' correction, in every lane until the la
 
 update(strain, sigma, p, dissipation) is the law of one point in Solid; p its one internal variable. */
 template <class S, class Update, int W>
-void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* strain, Reals<W>* sigma, Reals<W>& p, Responses<W>& response)
+void updateWithFreeNormals(const Hooke& C, Update&& update, const Pack<W>* strain, Pack<W>* sigma, Pack<W>& p, Responses<W>& response)
 {
 	static_assert(normals<S>() < 3);
 	constexpr int N = S::N;
-	Reals<W>      full[6] {}, s[6] {}, p3, heat, goal, size, a, b, e, fa, fb, fe, width;
-	auto          freeStress = [&](const Reals<W>& trial, Reals<W>& f) {
-                for (Reals<W>& component : s)
+	Pack<W>       full[6] {}, s[6] {}, p3, heat, goal, size, a, b, e, fa, fb, fe, width;
+	auto          freeStress = [&](const Pack<W>& trial, Pack<W>& f) {
+                for (Pack<W>& component : s)
                         component = {};
                 for (int k = 0; k < 3; ++k)
                         full[k] = trial;
@@ -73,7 +73,7 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Reals<W>* stra
 /* Applies the update of one point, update(S(), strain, sigma, p, dissipation), in every stress state: directly where all
 three normal stresses are components of S, else by updateWithFreeNormals(). */
 template <class S, class Update, int W, class T>
-void updateInSolid(const Hooke& C, Update&& update, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>& p, Responses<W, T>& response)
+void updateInSolid(const Hooke& C, Update&& update, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>& p, Responses<W, T>& response)
 {
 	if constexpr (normals<S>() == 3)
 		updatePoints<S>([&](auto&&... point) { update(S(), point...); }, strain, sigma, p, response.dissipation);
@@ -89,7 +89,7 @@ void differentiateInSolid(const Model& law, const Hooke& C, const double* strain
 	if constexpr (normals<S>() == 3)
 		differentiateUpdate<S>(law, C, strain, sigma, internal, tangent);
 	else {
-		Reals<1>     e[S::N], s[S::N], state[Model::maxInternals.columns(S::N) + 1] {};
+		Pack<1>      e[S::N], s[S::N], state[Model::maxInternals.columns(S::N) + 1] {};
 		Responses<1> response;
 		double       fullStrain[6] {}, fullStress[6] {}, solid[36];
 		for (int k = 0; k < S::N; ++k) {

@@ -30,7 +30,7 @@ struct J2 : LawDefaults {
 	template <class S> double hardeningEnergy(const double* internal) const { return hardening > 0 ? S::mises2(internal) / (2 * hardening) : 0; }
 
 	template <class S, int W, class T>
-	void                    update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>* internal, Responses<W, T>& response) const;
+	void                    update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response) const;
 	template <class S> void tangent(const Hooke& C, const double* strain, const double* sigma, const double* internal, double* D) const
 	{
 		differentiateUpdate<S>(*this, C, strain, sigma, internal, D);
@@ -76,13 +76,13 @@ normal stresses Simo & Taylor, IJNME 22 (1986) 649. sigma, eta and p are updated
 With g = dp/f at the end of the step, xi = (I + g (D M + H))^-1 xi_trial, and g is the root of 1/f(g) = 1/R(p + g f(g)). The
 difference rises and is concave: Newton's method from g = 0 rises to the root, in one step where xi does not split and R is constant. */
 template <class S, int W, class T>
-void J2::update(const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>* internal, Responses<W, T>& response) const
+void J2::update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response) const
 {
 	using std::sqrt;
-	Reals<W, T>*  eta = internal, &p = internal[S::N], &dissipation = response.dissipation;
+	Pack<W, T>*   eta = internal, &p = internal[S::N], &dissipation = response.dissipation;
 	constexpr int N  = S::N;
 	const double  kA = detail::splitModulus<S>(C) + hardening, kB = 3 * C.shear + hardening;
-	Reals<W, T>   A, B, start, R, slope, f, g;
+	Pack<W, T>    A, B, start, R, slope, f, g;
 	auto          radius = [&](auto&& plastic) {
                 if (isotropic.active())
                         for (int l = 0; l < W; ++l)

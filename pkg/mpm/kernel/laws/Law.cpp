@@ -42,7 +42,7 @@ template <class S> void updateStress(const Law& law, const double* strain, doubl
 {
 	constexpr int N       = S::N;
 	const int     columns = Internals::of(law).columns(N);
-	Reals<1>      e[N], s[N], state[maxInternals(N)];
+	Pack<1>       e[N], s[N], state[maxInternals(N)];
 	Responses<1>  added;
 	for (int k = 0; k < N; ++k)
 		e[k][0] = strain[k], s[k][0] = sigma[k];

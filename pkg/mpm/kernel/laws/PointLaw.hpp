@@ -8,7 +8,7 @@ namespace yade::mpm {
 /* Applies a law with one internal variable, written for one point as update(strain, sigma, p, dissipation), in every lane.
 Without branches and calls in the update, the lanes become vectors. */
 template <class S, class Update, int W, class T>
-void updatePoints(Update&& update, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>& p, Reals<W, T>& dissipation)
+void updatePoints(Update&& update, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>& p, Pack<W, T>& dissipation)
 {
 	forLanes<W>([&](int l) {
 		T e[S::N], s[S::N];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "../Reals.hpp"
+#include "../Pack.hpp"
 
 namespace yade::mpm {
 
@@ -11,7 +11,7 @@ struct Response {
 	double freeStrain  = 0; // strain increment of each stress-free normal component that the stress state leaves out
 };
 template <int W, class T = double> struct Responses {
-	Reals<W, T> dissipation {}, freeStrain {};
+	Pack<W, T> dissipation {}, freeStrain {};
 };
 
 } // namespace yade::mpm

@@ -14,7 +14,7 @@ void differentiateUpdate(const Model& law, const Hooke& C, const double* strain,
 {
 	constexpr int N = S::N;
 	using T         = Dual<N>;
-	Reals<1, T>     e[N], s[N], state[Model::maxInternals.columns(N) + 1] {};
+	Pack<1, T>      e[N], s[N], state[Model::maxInternals.columns(N) + 1] {};
 	Responses<1, T> response;
 	for (int k = 0; k < N; ++k)
 		e[k][0] = strain[k], e[k][0].slope[k] = 1, s[k][0] = sigma[k];

@@ -6,14 +6,13 @@
 namespace yade::mpm {
 
 /* updateStress() in every lane: dispatches the stress update by law. respond: whether to add to the response. */
-template <class S, int W>
-void updateStressLanes(const Law& law, const Reals<W>* strain, Reals<W>* sigma, Reals<W>* internal, Responses<W>& response, bool respond)
+template <class S, int W> void updateStressLanes(const Law& law, const Pack<W>* strain, Pack<W>* sigma, Pack<W>* internal, Responses<W>& response, bool respond)
 {
 	law.visit([&](const auto& model) {
 		constexpr int  kept        = normals<S>();
 		constexpr bool possible    = kept < 3 && !std::decay_t<decltype(model)>::findsFreeStrain;
 		const bool     freeNormals = possible && respond;
-		Reals<W>       traceBefore {};
+		Pack<W>        traceBefore {};
 		// tr eps = (1 - 2 nu)/E tr sigma, times the growth of the compliance
 		auto trace = [&](int l) {
 			double sum = 0;
@@ -21,8 +20,8 @@ void updateStressLanes(const Law& law, const Reals<W>* strain, Reals<W>* sigma, 
 				sum += sigma[k][l];
 			return sum;
 		};
-		auto     growth = [&](int l) { return model.template complianceGrowth<S>([&](int k) { return internal[k][l]; }); };
-		Reals<W> growthBefore;
+		auto    growth = [&](int l) { return model.template complianceGrowth<S>([&](int k) { return internal[k][l]; }); };
+		Pack<W> growthBefore;
 		if (freeNormals) forLanes<W>([&](int l) { traceBefore[l] = trace(l), growthBefore[l] = growth(l); });
 		model.template update<S>(law.elastic, strain, sigma, internal, response);
 		if (freeNormals)

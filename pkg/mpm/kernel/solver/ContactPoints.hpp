@@ -24,7 +24,7 @@ template <int dim, class Shape> void spreadTorques(const Transfer<dim, Shape>& t
 	bool               found = false;
 	typename T::Values f[dim];
 	for (std::size_t p = tile.begin; p < tile.end; ++p) {
-		if (!P.touched[p]) continue;
+		if (!P.inContact[p]) continue;
 		for (int d = 0; d < dim && !found; ++d)
 			std::fill(std::begin(f[d]), std::end(f[d]), 0.);
 		found = true;
@@ -52,7 +52,7 @@ template <class D> void moveContactPoints(D& d, double dt, std::size_t t, TileRe
 	bool               loaded = false;
 	typename D::Values v[dim];
 	for (std::size_t p = tile.begin; p < tile.end; ++p) {
-		if (!P.touched[p]) continue;
+		if (!P.inContact[p]) continue;
 		for (int a = 0; a < dim && !loaded; ++a)
 			D::Patch::read(tile, d.fields.velocity[a], v[a]);
 		loaded       = true;
@@ -65,12 +65,12 @@ template <class D> void moveContactPoints(D& d, double dt, std::size_t t, TileRe
 			P.spin[std::size_t(k)][p] = .5 * (grad[to][from] - grad[from][to]);
 		}
 		for (std::size_t a = 0; a < std::size_t(dim); ++a) {
-			const bool fixed = !P.fixed.empty() && P.fixed[p] >> a & 1;
-			P.moving[a][p]   = fixed ? P.velocity[a][p] : w.gather(v[a]);
+			const bool fixed        = !P.prescribedDofs.empty() && P.prescribedDofs[p] >> a & 1;
+			P.contactVelocity[a][p] = fixed ? P.velocity[a][p] : w.gather(v[a]);
 			if (fixed) continue;
-			P.advance[a][p]     = dt * P.moving[a][p];
-			const double xi     = g.xi(int(a), P.position[a][p] + P.advance[a][p]);
-			const double inTile = xi - Shape::shift(d.transfer.halfSize(int(a), p)) - tile.index[a] * D::T::Grid::width;
+			P.displacementIncrement[a][p] = dt * P.contactVelocity[a][p];
+			const double xi               = g.xi(int(a), P.position[a][p] + P.displacementIncrement[a][p]);
+			const double inTile           = xi - Shape::shift(d.transfer.halfSize(int(a), p)) - tile.index[a] * D::T::Grid::width;
 			report.left |= !(inTile >= 0 && inTile < D::T::Grid::width && xi >= g.xiMin[a] && xi <= g.xiMax[a]);
 		}
 	}

@@ -63,7 +63,7 @@ public:
 				}
 				for (int a = 0; a < dim; ++a)
 					D::Patch::add(tile, f[a], m_external[a]);
-				if (!transfer.points.touched.empty()) spreadTorques(transfer, t, m_external);
+				if (!transfer.points.inContact.empty()) spreadTorques(transfer, t, m_external);
 			},
 			m_external);
 	}
@@ -147,7 +147,7 @@ private:
 			double       taken[dim]; // change of velocity
 			for (std::size_t a = 0; a < std::size_t(dim); ++a) {
 				const double old = m_velocity[a][p], dvp = w.gather(change[a]);
-				if (!P.fixed.empty() && P.fixed[p] >> a & 1) {
+				if (!P.prescribedDofs.empty() && P.prescribedDofs[p] >> a & 1) {
 					taken[a] = 0;
 					half.walls += .5 * m * dvp * old;
 				} else {

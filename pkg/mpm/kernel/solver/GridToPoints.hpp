@@ -25,26 +25,26 @@ namespace detail {
 		const auto&       g       = d.transfer.geometry;
 		const std::size_t k       = std::size_t(axis);
 		const double      origin = g.origin[k], cell = g.cell[k], lower = g.xiMin[k], upper = g.xiMax[k], corner = tile.index[k] * Grid::width;
-		Lanes             velocity, advance, r {};
+		Lanes             velocity, increment, r {};
 		load(P.velocity[k], block, velocity);
 		const Lanes old = velocity;
 		if (Shape::usesSize) load(P.size, block, r);
-		forLanes([&](int l) { advance[l] = dt * vp[l]; });
+		forLanes([&](int l) { increment[l] = dt * vp[l]; });
 		if (flip == 1)
 			forLanes([&](int l) { velocity[l] += dvp[l]; });
 		else
 			forLanes([&](int l) { velocity[l] = flip * (velocity[l] + dvp[l]) + (1 - flip) * vp[l]; });
-		for (int l = 0; !P.fixed.empty() && l < block.count; ++l)
-			if (P.fixed[block.first + std::size_t(l)] >> axis & 1) velocity[l] = old[l], advance[l] = dt * old[l];
+		for (int l = 0; !P.prescribedDofs.empty() && l < block.count; ++l)
+			if (P.prescribedDofs[block.first + std::size_t(l)] >> axis & 1) velocity[l] = old[l], increment[l] = dt * old[l];
 		int inside = 1;
 #pragma omp simd reduction(& : inside)
 		for (int l = 0; l < lanes; ++l) {
-			const double xi = (x[l] + advance[l] - origin) / cell, inTile = xi - Shape::shift(.5 * r[l] / cell) - corner;
+			const double xi = (x[l] + increment[l] - origin) / cell, inTile = xi - Shape::shift(.5 * r[l] / cell) - corner;
 			mvp[l] = mp[l] * velocity[l];
 			inside &= (inTile >= 0) & (inTile < Grid::width) & (xi >= lower) & (xi <= upper) & (std::abs(velocity[l]) < infinity);
 		}
 		store(velocity, block, P.velocity[k]);
-		store(advance, block, P.advance[k]);
+		store(increment, block, P.displacementIncrement[k]);
 		return !inside;
 	}
 

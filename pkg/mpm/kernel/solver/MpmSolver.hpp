@@ -187,7 +187,7 @@ private:
 		auto  work   = [&](std::size_t t) {
                         before(t);
                         pointsToGrid<sums>(m_d.transfer, fields, m_control, t);
-                        if (sums != Sums::motion && !points().touched.empty()) spreadTorques(m_d.transfer, t, fields.force);
+                        if (sums != Sums::motion && !points().inContact.empty()) spreadTorques(m_d.transfer, t, fields.force);
 		};
 		if constexpr (sums == Sums::motion)
 			sumOverTiles(m_d.transfer, work, fields.mass, fields.radialMass, fields.momentum);
@@ -229,7 +229,7 @@ private:
 	{
 		if (m_control.trackEnergy) m_balance.addWork(m_d, m_control, m_added, m_roundTrip);
 		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
-		if (!points().touched.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
+		if (!points().inContact.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
 		if (m_control.filter > 0) filterVelocities(m_d, m_control);
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
@@ -243,8 +243,8 @@ private:
 	{
 		for (std::size_t d = 0; d < std::size_t(dim); ++d)
 			for (std::size_t p = 0; p < points().count(); ++p) {
-				points().position[d][p] += points().advance[d][p];
-				points().advance[d][p] = 0;
+				points().position[d][p] += points().displacementIncrement[d][p];
+				points().displacementIncrement[d][p] = 0;
 			}
 	}
 	void lap(const char* pass) const

@@ -26,7 +26,8 @@ template <class D> void filterVelocities(D& d, const StepControl& control)
 		for (std::size_t p = tile.begin; p < tile.end; ++p) {
 			const auto w = d.transfer.weights(tile, p);
 			for (std::size_t a = 0; a < std::size_t(dim); ++a)
-				if (P.fixed.empty() || !(P.fixed[p] >> a & 1)) P.velocity[a][p] += control.filter * (w.gather(v[a]) - P.velocity[a][p]);
+				if (P.prescribedDofs.empty() || !(P.prescribedDofs[p] >> a & 1))
+					P.velocity[a][p] += control.filter * (w.gather(v[a]) - P.velocity[a][p]);
 		}
 	});
 	if (!control.trackEnergy) return;

@@ -52,7 +52,7 @@ private:
 	double position(int d, std::size_t p) const
 	{
 		const Points& P = m_transfer.points;
-		return P.position[std::size_t(d)][p] + (P.advance.empty() ? 0 : P.advance[std::size_t(d)][p]);
+		return P.position[std::size_t(d)][p] + (P.displacementIncrement.empty() ? 0 : P.displacementIncrement[std::size_t(d)][p]);
 	}
 };
 

@@ -77,12 +77,12 @@ private:
 	}
 	void move(Block block, Lanes (&x)[dim])
 	{
-		Lanes advance;
+		Lanes increment;
 		for (std::size_t a = 0; a < std::size_t(dim); ++a) {
-			load(points().advance[a], block, advance);
-			forLanes([&](int l) { x[a][l] += advance[l], advance[l] = 0; });
+			load(points().displacementIncrement[a], block, increment);
+			forLanes([&](int l) { x[a][l] += increment[l], increment[l] = 0; });
 			store(x[a], block, points().position[a]);
-			store(advance, block, points().advance[a]);
+			store(increment, block, points().displacementIncrement[a]);
 		}
 	}
 

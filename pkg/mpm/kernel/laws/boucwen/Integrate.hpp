@@ -34,7 +34,7 @@ struct ErrorBound {
 increment at once where its error allows that, as in a step of the material point method; the rest is done in sub-steps by
 Cash & Karp's pair. The stress of a lane that fails becomes NaN. */
 template <class S, bool options, int W, class T>
-void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* strain, Reloading<S, W, T>& reloading, Reals<W, T>* y, int* subSteps)
+void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Pack<W, T>* strain, Reloading<S, W, T>& reloading, Pack<W, T>* y, int* subSteps)
 {
 	using std::sqrt;
 	using Y         = BoucWenVector<S, options>;
@@ -46,8 +46,8 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 	const bool    remembers = options && law.remembers(), paper = options && law.paper();
 	// up to this f/sigma_y, H1 H2 is below the threshold of flow
 	const double small = options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(leastFlow * tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
-	Reals<W, T>  De[N], stepStress[N], stepStrain[N], dy1[size], dy2[size], next[size], mDe1, mDe2, radius, done {}, step, uncut;
-	Reals<W>     excess, accepted, failed {}, lost {}, kinks {};
+	Pack<W, T>   De[N], stepStress[N], stepStrain[N], dy1[size], dy2[size], next[size], mDe1, mDe2, radius, done {}, step, uncut;
+	Pack<W>      excess, accepted, failed {}, lost {}, kinks {};
 	forLanes<W>([&](int l) {
 		T e[N], d[N];
 		for (int k = 0; k < N; ++k)
@@ -173,8 +173,8 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Reals<W, T>* str
 	if (end()) return giveUpLost();
 	advance([&](int l) { return (paper ? .9 : 2) / std::sqrt(std::sqrt(excess[l])); });
 
-	const int   maxRounds = int(maxSubSteps + 20 / std::sqrt(tolerance));
-	Reals<W, T> slopes[CashKarp::stages][size], mDe;
+	const int  maxRounds = int(maxSubSteps + 20 / std::sqrt(tolerance));
+	Pack<W, T> slopes[CashKarp::stages][size], mDe;
 	for (int round = 0; round < maxRounds; ++round) {
 		begin();
 		if (paper) { // its rate jumps, where a pair of high order has no advantage

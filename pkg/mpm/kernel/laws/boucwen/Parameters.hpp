@@ -77,7 +77,7 @@ struct BoucWen : LawDefaults {
 	scalars) are updated, dissipation is added to. subSteps, where given, counts the sub-steps of all lanes. */
 	template <class S, int W, class T>
 	void update(
-		const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* sigma, Reals<W, T>* internal, Responses<W, T>& response, int* subSteps = nullptr) const;
+		const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response, int* subSteps = nullptr) const;
 	/* The tangent consistent with the sub-steps of update(). */
 	template <class S> void tangent(const Hooke& C, const double* strain, const double* sigma, const double* internal, double* D) const
 	{

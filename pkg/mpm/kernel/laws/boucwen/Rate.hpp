@@ -11,7 +11,7 @@ constexpr double leastFlow = 3e-4;
 inline bool isHalfOrWhole(double n) { return 2 * n <= 2048 && 2 * n == int(2 * n); }
 
 /* z^n; n is a whole or half number in most scenes, which avoids the call of pow. Up to `small`, pow may give 0. */
-template <int W, class T> void power(const Reals<W, T>& base, double n, double small, Reals<W, T>& result)
+template <int W, class T> void power(const Pack<W, T>& base, double n, double small, Pack<W, T>& result)
 {
 	using std::pow, std::sqrt;
 	if (!isHalfOrWhole(n)) {
@@ -19,9 +19,9 @@ template <int W, class T> void power(const Reals<W, T>& base, double n, double s
 			result[l] = base[l] > small ? pow(base[l], n) : T(0);
 		return;
 	}
-	const int   twice = int(2 * n);
-	const bool  half  = twice & 1;
-	Reals<W, T> z     = base;
+	const int  twice = int(2 * n);
+	const bool half  = twice & 1;
+	Pack<W, T> z     = base;
 	forLanes<W>([&](int l) { result[l] = half ? sqrt(z[l]) : T(1); });
 	for (int bits = twice >> 1; bits; bits >>= 1) {
 		if (bits & 1) forLanes<W>([&](int l) { result[l] *= z[l]; });
@@ -31,8 +31,8 @@ template <int W, class T> void power(const Reals<W, T>& base, double n, double s
 
 /* The fraction of the loading that flows, with the options: H1 H2 from H1, in place. */
 template <class S, int W, class T>
-void flowRatio(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, const Reloading<S, W, T>& reloading, const Reals<W, T>& f,
-	const Reals<W, T>& radius, const Reals<W, T>& mDe, Reals<W, T>& H1)
+void flowRatio(const BoucWen& law, const Pack<W, T>* y, const Pack<W, T>* De, const Reloading<S, W, T>& reloading, const Pack<W, T>& f,
+	const Pack<W, T>& radius, const Pack<W, T>& mDe, Pack<W, T>& H1)
 {
 	using std::exp, std::expm1;
 	using Y               = BoucWenVector<S, true>;
@@ -48,9 +48,9 @@ void flowRatio(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, 
 		return;
 	}
 	forLanes<W>([&](int l) { H1[l] *= 1 + law.strengthDegradation * y[Y::e][l]; });
-	Reals<W, T> loads = H1;
+	Pack<W, T> loads = H1;
 	if (law.remembers()) {
-		Reals<W, T> fraction, factor;
+		Pack<W, T> fraction, factor;
 		forLanes<W>([&](int l) { fraction[l] = reloading.loadedFraction(f, l); });
 		if (std::isinf(law.reloading))
 			forLanes<W>([&](int l) { factor[l] = fraction[l] < 1 ? 0 : 1; });
@@ -71,15 +71,15 @@ void flowRatio(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, 
    lambda' a = H1 H2 (m^T D eps') m / (m^T D m + H f^2),  lambda' = f times that ratio.
 Up to z = f/sigma_y = small, the flow is known to be none. In a state that no exact solution comes near, dy is no number. */
 template <class S, bool options, int W, class T>
-void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloading<S, W, T>& reloading, const Reals<W, T>* y, const Reals<W, T>* strain,
-	const Reals<W, T>* De, Reals<W, T>* dy, Reals<W, T>& mDe)
+void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloading<S, W, T>& reloading, const Pack<W, T>* y, const Pack<W, T>* strain,
+	const Pack<W, T>* De, Pack<W, T>* dy, Pack<W, T>& mDe)
 {
 	using std::sqrt, std::abs;
 	using Y          = BoucWenVector<S, options>;
 	constexpr int N  = S::N;
 	const double  sy = law.yieldStress, inverseYield = 1 / sy, least = leastFlow * law.tolerance, loading = law.beta + law.gamma,
 		     unloading = law.beta - law.gamma;
-	Reals<W, T> radius, slope, f, z, H;
+	Pack<W, T> radius, slope, f, z, H;
 	if constexpr (options) {
 		for (int l = 0; l < W; ++l)
 			radius[l] = law.isotropic.radius(sy, y[Y::p][l]), slope[l] = law.isotropic.slope(y[Y::p][l]);

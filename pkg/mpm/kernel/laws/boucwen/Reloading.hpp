@@ -11,7 +11,7 @@ template <class S, bool options> struct BoucWenVector {
 	static constexpr int size = options ? strain + S::N : e;
 };
 
-template <class S, int W, class T> void backStressFree(const Reals<W, T>* y, int l, T* xi)
+template <class S, int W, class T> void backStressFree(const Pack<W, T>* y, int l, T* xi)
 {
 	for (int k = 0; k < S::N; ++k)
 		xi[k] = y[k][l] - y[S::N + k][l];
@@ -22,12 +22,12 @@ continuously and loading at the limit makes them f, so that the response depends
 template <class S, int W, class T> struct Reloading {
 	static constexpr double depth = 4; // limit <= depth f
 
-	Reals<W, T> limit {}, origin {}, xi[S::N] {}; // xi at the start of the sub-step
+	Pack<W, T> limit {}, origin {}, xi[S::N] {}; // xi at the start of the sub-step
 	// the sub-step under way: whether it unloads, has no flow while loading, loads at the limit, is cut short
-	Reals<W> unloads {}, elastic {}, atLimit {}, stops {};
+	Pack<W> unloads {}, elastic {}, atLimit {}, stops {};
 
 	/* Before a sub-step, which ends at the latest where f turns or where elastic reloading meets the limit. */
-	void begin(const BoucWen& law, const Reals<W, T>* y, const Reals<W, T>* De, Reals<W, T>& step)
+	void begin(const BoucWen& law, const Pack<W, T>* y, const Pack<W, T>* De, Pack<W, T>& step)
 	{
 		using std::sqrt;
 		const bool sharp = std::isinf(law.reloading);
@@ -49,7 +49,7 @@ template <class S, int W, class T> struct Reloading {
 		});
 	}
 	/* After it, in lanes that have accepted it. */
-	void end(const Reals<W, T>* y, const Reals<W, T>& done, const Reals<W>& accepted)
+	void end(const Pack<W, T>* y, const Pack<W, T>& done, const Pack<W>& accepted)
 	{
 		using std::sqrt;
 		forLanes<W>([&](int l) {
@@ -74,7 +74,7 @@ template <class S, int W, class T> struct Reloading {
 		});
 	}
 	/* The factor on H1 of a lane that loads is this to the power r. */
-	T loadedFraction(const Reals<W, T>& f, int l) const
+	T loadedFraction(const Pack<W, T>& f, int l) const
 	{
 		const bool below = (atLimit[l] == 0) & (f[l] < limit[l]);
 		return below ? std::max<T>(0., f[l] - origin[l]) / std::max<T>(limit[l] - origin[l], 1e-9 * limit[l]) : T(1);

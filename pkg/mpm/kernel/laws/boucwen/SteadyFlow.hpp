@@ -11,7 +11,7 @@ constexpr double maxSubSteps = 1e5;
 /* Increments of more yield strains than this are rare; isFar() finds them. */
 constexpr double farStrain = 64;
 
-template <class S, int W, class T> bool isFar(const BoucWen& law, const Hooke& C, const Reals<W, T>* strain)
+template <class S, int W, class T> bool isFar(const BoucWen& law, const Hooke& C, const Pack<W, T>* strain)
 {
 	const double limit = law.yieldStress * std::min(farStrain, maxSubSteps / law.n);
 	return anyLane<W>([&](int l) {
@@ -39,7 +39,7 @@ template <class S, class T> T integratedFraction(const BoucWen& law, const Hooke
 	return std::max(1., law.n) * (steady ? T(memory) : length) <= maxSubSteps ? steady ? memory / length : T(1) : T(0);
 }
 template <class S, int W, class T>
-[[gnu::noinline]] void truncateIncrement(const BoucWen& law, const Hooke& C, const Reals<W, T>* strain, Reals<W, T>* shorter, Reals<W, T>& fraction)
+[[gnu::noinline]] void truncateIncrement(const BoucWen& law, const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* shorter, Pack<W, T>& fraction)
 {
 	for (int l = 0; l < W; ++l) {
 		T e[S::N];
@@ -52,14 +52,14 @@ template <class S, int W, class T>
 }
 /* The rest of the increments. In steady flow, f = sigma_y, the backward Euler step of classical plasticity is exact, however long. */
 template <class S, int W, class T>
-[[gnu::noinline]] void flowSteadily(const BoucWen& law, const Hooke& C, const Reals<W, T>* strain, const Reals<W, T>& fraction, Reals<W, T>* sigma,
-	Reals<W, T>* eta, Reals<W, T>& p, Reals<W, T>& dissipation)
+[[gnu::noinline]] void flowSteadily(const BoucWen& law, const Hooke& C, const Pack<W, T>* strain, const Pack<W, T>& fraction, Pack<W, T>* sigma,
+	Pack<W, T>* eta, Pack<W, T>& p, Pack<W, T>& dissipation)
 {
 	J2 classical;
 	classical.yieldStress = law.yieldStress, classical.hardening = law.hardening;
 	for (int l = 0; l < W; ++l) {
 		if (fraction[l] == 1) continue;
-		Reals<1, T>     e[S::N], s[S::N], state[S::N + 1];
+		Pack<1, T>      e[S::N], s[S::N], state[S::N + 1];
 		Responses<1, T> response;
 		for (int k = 0; k < S::N; ++k)
 			e[k][0] = (1 - fraction[l]) * strain[k][l], s[k][0] = sigma[k][l], state[k][0] = eta[k][l];

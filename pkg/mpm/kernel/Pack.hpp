@@ -5,7 +5,7 @@ namespace yade::mpm {
 
 /* One number of each of several points that are updated together, a lane a point. Code for W lanes is, with W = 1, the code
 for one point. The number is a double, or a Dual where derivatives are computed. */
-template <int W, class T = double> struct alignas(8 * W) Reals {
+template <int W, class T = double> struct alignas(8 * W) Pack {
 	T  value[W];
 	T& operator[](int l) { return value[l]; }
 	T  operator[](int l) const { return value[l]; }
