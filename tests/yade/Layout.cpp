@@ -55,24 +55,24 @@ namespace {
 		SIZE(TimingInfo)
 		AT(TimingInfo, nExec)
 		AT(TimingInfo, nsec)
-		SIZE(TimingDeltas)
-			AT(TimingDeltas, last) AT(TimingDeltas, data) AT(TimingDeltas, labels) SIZE(Engine) AT(Engine, scene) AT(Engine, timingInfo) AT(Engine,
-				timingDeltas) AT(Engine, dead) AT(Engine, ompThreads) AT(Engine, label) SIZE(GlobalEngine) SIZE(PartialEngine) AT(PartialEngine,
-				ids) SIZE(PeriodicEngine) AT(PeriodicEngine, virtPeriod) AT(PeriodicEngine, realPeriod) AT(PeriodicEngine,
-				iterPeriod) AT(PeriodicEngine, nDo) AT(PeriodicEngine, initRun) AT(PeriodicEngine, firstIterRun) AT(PeriodicEngine,
-				virtLast) AT(PeriodicEngine, realLast) AT(PeriodicEngine, iterLast) AT(PeriodicEngine, nDone) SIZE(TimeStepper) AT(TimeStepper,
-				active) AT(TimeStepper, timeStepUpdateInterval) SIZE(Material) AT(Material, id) AT(Material, label) AT(Material,
-				density) SIZE(ElastMat) AT(ElastMat, young) AT(ElastMat, poisson) SIZE(FrictMat) AT(FrictMat,
-				frictionAngle) SIZE(Shape) AT(Shape, boundFunctor) AT(Shape, internalforcefunctor) AT(Shape,
-				color) AT(Shape, wire) AT(Shape, highlight) SIZE(Sphere) AT(Sphere, radius) SIZE(Bound) AT(Bound, lastUpdateIter) AT(Bound,
-				refPos) AT(Bound, sweepLength) AT(Bound, color) AT(Bound, min) AT(Bound, max) SIZE(Se3r)
-				AT(Se3r, position) AT(Se3r, orientation) SIZE(State) AT(State, updateMutex) AT(State, se3) AT(State, vel) AT(State, mass) AT(
-					State, angVel) AT(State, angMom) AT(State, inertia) AT(State, refPos) AT(State, refOri)
-					AT(State, blockedDOFs) AT(State, isDamped) AT(State, densityScaling) SIZE(IGeom) SIZE(IPhys) SIZE(Interaction) AT(
-						Interaction, isActive) AT(Interaction, id1) AT(Interaction, id2) AT(Interaction, iterMadeReal) AT(Interaction,
-						iterLastSeen) AT(Interaction, geom) AT(Interaction, phys) AT(Interaction, cellDist) AT(Interaction, linIx)
-						AT(Interaction, iterBorn) SIZE(Body) AT(Body, id) AT(Body, groupMask) AT(Body, flags) AT(Body, subdomain)
-							AT(Body, material) AT(Body, state) AT(Body, shape) AT(Body, bound) AT(Body, intrs) AT(Body, clumpId)
+			SIZE(TimingDeltas) AT(TimingDeltas, last) AT(TimingDeltas, data) AT(TimingDeltas, labels) SIZE(Engine) AT(Engine, scene) AT(
+				Engine, timingInfo) AT(Engine, timingDeltas) AT(Engine, dead) AT(Engine, ompThreads) AT(Engine,
+				label) SIZE(GlobalEngine) SIZE(PartialEngine) AT(PartialEngine, ids) SIZE(PeriodicEngine) AT(PeriodicEngine,
+				virtPeriod) AT(PeriodicEngine, realPeriod) AT(PeriodicEngine, iterPeriod) AT(PeriodicEngine, nDo) AT(PeriodicEngine,
+				initRun) AT(PeriodicEngine, firstIterRun) AT(PeriodicEngine, virtLast) AT(PeriodicEngine, realLast) AT(PeriodicEngine,
+				iterLast) AT(PeriodicEngine, nDone) SIZE(TimeStepper) AT(TimeStepper, active) AT(TimeStepper,
+				timeStepUpdateInterval) SIZE(Material) AT(Material, id) AT(Material, label) AT(Material, density) SIZE(ElastMat) AT(ElastMat,
+				young) AT(ElastMat, poisson) SIZE(FrictMat) AT(FrictMat, frictionAngle) SIZE(Shape) AT(Shape, boundFunctor) AT(Shape,
+				internalforcefunctor) AT(Shape, color) AT(Shape, wire) AT(Shape, highlight) SIZE(Sphere) AT(Sphere, radius) SIZE(Bound)
+				AT(Bound, lastUpdateIter) AT(Bound, refPos) AT(Bound, sweepLength) AT(Bound, color) AT(Bound, min) AT(Bound, max) SIZE(Se3r) AT(
+					Se3r, position) AT(Se3r, orientation) SIZE(State) AT(State, updateMutex) AT(State, se3) AT(State, vel) AT(State, mass)
+					AT(State, angVel) AT(State, angMom) AT(State, inertia) AT(State, refPos) AT(State, refOri) AT(
+						State, blockedDOFs) AT(State, isDamped) AT(State, densityScaling) SIZE(IGeom) SIZE(IPhys) SIZE(Interaction)
+						AT(Interaction, isActive) AT(Interaction, id1) AT(Interaction, id2) AT(Interaction, iterMadeReal) AT(
+							Interaction, iterLastSeen) AT(Interaction, geom) AT(Interaction, phys) AT(Interaction, cellDist)
+							AT(Interaction, linIx) AT(Interaction, iterBorn) SIZE(Body) AT(Body, id) AT(
+								Body, groupMask) AT(Body, flags) AT(Body, subdomain) AT(Body,
+								material) AT(Body, state) AT(Body, shape) AT(Body, bound) AT(Body, intrs) AT(Body, clumpId)
 								AT(Body, iterBorn) AT(Body, timeBorn) SIZE(BodyContainer) AT(BodyContainer, body)
 									AT(BodyContainer, dirty) AT(BodyContainer, checkedByCollider)
 										AT(BodyContainer, insertedBodies) AT(BodyContainer, erasedBodies)
@@ -87,8 +87,7 @@ namespace {
 		AT(Scene, hostNameMax)
 		AT(Scene, forces)
 		AT(Scene, SpeedElements)
-		AT(Scene, renderer)
-		AT(Scene, prevTime) AT(Scene, dt) AT(Scene, iter) AT(Scene, subStepping) AT(Scene, subStep) AT(Scene, time) AT(Scene, speed)
+		AT(Scene, renderer) AT(Scene, prevTime) AT(Scene, dt) AT(Scene, iter) AT(Scene, subStepping) AT(Scene, subStep) AT(Scene, time) AT(Scene, speed)
 			AT(Scene, stopAtIter) AT(Scene, stopAtTime) AT(Scene, isPeriodic) AT(Scene, trackEnergy) AT(Scene, doSort)
 				AT(Scene, runInternalConsistencyChecks) AT(Scene, selectedBody) AT(Scene, subdomain) AT(Scene, subD) AT(Scene, tags)
 					AT(Scene, engines) AT(Scene, _nextEngines) AT(Scene, bodies) AT(Scene, interactions) AT(Scene, energy)
@@ -115,12 +114,11 @@ namespace {
 		EVERY_CLASS(Serializable)
 		EVERY_CLASS(Engine)
 		EVERY_CLASS(GlobalEngine)
-		EVERY_CLASS(PartialEngine)
-		EVERY_CLASS(PeriodicEngine) EVERY_CLASS(TimeStepper) EVERY_CLASS(Interaction) EVERY_CLASS(Body) EVERY_CLASS(BodyContainer)
-			EVERY_CLASS(EnergyTracker) EVERY_CLASS(Scene) EVERY_INDEXABLE(Material) EVERY_INDEXABLE(ElastMat) EVERY_INDEXABLE(FrictMat)
-				EVERY_INDEXABLE(Shape) EVERY_INDEXABLE(Sphere) EVERY_INDEXABLE(Bound) EVERY_INDEXABLE(State) EVERY_INDEXABLE(IGeom)
-					EVERY_INDEXABLE(IPhys) SLOT(Indexable, incrementMaxCurrentlyUsedClassIndexOfKin) SLOT(Indexable, modifyClassIndex)
-						SLOT(Indexable, getClassIndex) SLOT(Indexable, getBaseClassIndex)
+		EVERY_CLASS(PartialEngine) EVERY_CLASS(PeriodicEngine) EVERY_CLASS(TimeStepper) EVERY_CLASS(Interaction) EVERY_CLASS(Body)
+			EVERY_CLASS(BodyContainer) EVERY_CLASS(EnergyTracker) EVERY_CLASS(Scene) EVERY_INDEXABLE(Material) EVERY_INDEXABLE(ElastMat)
+				EVERY_INDEXABLE(FrictMat) EVERY_INDEXABLE(Shape) EVERY_INDEXABLE(Sphere) EVERY_INDEXABLE(Bound) EVERY_INDEXABLE(State)
+					EVERY_INDEXABLE(IGeom) EVERY_INDEXABLE(IPhys) SLOT(Indexable, incrementMaxCurrentlyUsedClassIndexOfKin)
+						SLOT(Indexable, modifyClassIndex) SLOT(Indexable, getClassIndex) SLOT(Indexable, getBaseClassIndex)
 							SLOT(Indexable, getMaxCurrentlyUsedClassIndexOfKin) SLOT(Engine, isActivated) SLOT(Engine, action)
 								SLOT(PeriodicEngine, isActivated) SLOT(TimeStepper, isActivated) SLOT(TimeStepper, action)
 									SLOT(TimeStepper, computeTimeStep) SLOT(Material, newAssocState)
@@ -135,32 +133,31 @@ namespace {
 		TYPE(Serializable, pySetAttr)
 		TYPE(Serializable, pyDict)
 		TYPE(Serializable, pyDictCustom)
-		TYPE(Serializable, callPostLoad)
-		TYPE(Serializable, checkPyClassRegistersItself) TYPE(Serializable, pyRegisterClass) TYPE(Serializable, pyHandleCustomCtorArgs) TYPE(
-			Serializable, pyUpdateAttrs) TYPE(Serializable, pyStr) TYPE(Indexable, createIndex) TYPE(Indexable,
-			incrementMaxCurrentlyUsedClassIndexOfKin) TYPE(Indexable, modifyClassIndex) TYPE(Indexable, getClassIndex) TYPE(Indexable,
-			getBaseClassIndex) TYPE(Indexable, getMaxCurrentlyUsedClassIndexOfKin) TYPE(ClassFactory, registerFactorable) TYPE(ClassFactory,
-			registerPluginClasses) TYPE(ClassFactory, createShared) TYPE(ClassFactory, createPure) TYPE(Engine, isActivated) TYPE(Engine,
-			action) TYPE(PeriodicEngine, isActivated) TYPE(TimeStepper, computeTimeStep) TYPE(TimingDeltas, start) TYPE(TimingDeltas,
-			checkpoint) TYPE(Material, newAssocState) TYPE(Material, stateTypeOk) OVERLOAD(Material, byId,
-			const shared_ptr<Material> (*)(int, Scene*)) OVERLOAD(Material, byLabel, const shared_ptr<Material> (*)(const std::string&, Scene*))
-			TYPE(State, axisDOF) TYPE(State, blockedDOFs_vec_get) TYPE(State, blockedDOFs_vec_set) TYPE(Interaction, isReal) TYPE(
-				Interaction, getId1) TYPE(Interaction, getId2) TYPE(Body, userForcedDisplacementRedrawHook) TYPE(Body, getId) TYPE(Body,
-				isClump) TYPE(Body, isClumpMember) TYPE(Body, isStandalone) TYPE(Body, isDynamic) TYPE(Body, isBounded) TYPE(Body, isAspherical)
-				TYPE(Body, setDynamic) TYPE(Body, setBounded) TYPE(Body, setAspherical) TYPE(Body, maskOk) TYPE(Body, maskCompatible) OVERLOAD(
-					Body, byId, const shared_ptr<Body>& (*)(Body::id_t, Scene*)) TYPE(BodyContainer, insert) TYPE(BodyContainer, erase)
-					TYPE(BodyContainer, clear) TYPE(BodyContainer, exists) TYPE(BodyContainer, size) OVERLOAD(BodyContainer, operator[],
-						shared_ptr<Body> & (BodyContainer::*)(unsigned int)) OVERLOAD(BodyContainer, operator[],
-						const shared_ptr<Body>& (BodyContainer::*)(unsigned int) const) TYPE(ForceContainer, sync) TYPE(ForceContainer,
-						ensureSynced) TYPE(ForceContainer, getForce) TYPE(ForceContainer, getTorque) TYPE(ForceContainer, getPermForce)
-						TYPE(ForceContainer, getPermTorque) TYPE(ForceContainer, addForce) TYPE(ForceContainer, addTorque)
-							TYPE(ForceContainer, setPermForce) TYPE(ForceContainer, setPermTorque) TYPE(ForceContainer, addMaxId)
-								TYPE(ForceContainer, reset) TYPE(ForceContainer, getPermForceUsed) TYPE(
-									EnergyTracker, setItem_py) TYPE(EnergyTracker, getItem_py) TYPE(EnergyTracker, clear)
-									TYPE(EnergyTracker, total) TYPE(EnergyTracker, keys_py) TYPE(Scene, moveToNextTimeStep)
-										TYPE(Scene, engineByName) TYPE(Scene, timeStepperPresent)
-											TYPE(Scene, timeStepperActive) TYPE(Scene, timeStepperActivate)
-												TYPE(Omega, getScene) TYPE(Omega, isRunning) TYPE(Omega, pause)
+		TYPE(Serializable, callPostLoad) TYPE(Serializable, checkPyClassRegistersItself) TYPE(Serializable, pyRegisterClass) TYPE(
+			Serializable, pyHandleCustomCtorArgs) TYPE(Serializable, pyUpdateAttrs) TYPE(Serializable, pyStr) TYPE(Indexable,
+			createIndex) TYPE(Indexable, incrementMaxCurrentlyUsedClassIndexOfKin) TYPE(Indexable, modifyClassIndex) TYPE(Indexable,
+			getClassIndex) TYPE(Indexable, getBaseClassIndex) TYPE(Indexable, getMaxCurrentlyUsedClassIndexOfKin) TYPE(ClassFactory,
+			registerFactorable) TYPE(ClassFactory, registerPluginClasses) TYPE(ClassFactory, createShared) TYPE(ClassFactory,
+			createPure) TYPE(Engine, isActivated) TYPE(Engine, action) TYPE(PeriodicEngine, isActivated) TYPE(TimeStepper,
+			computeTimeStep) TYPE(TimingDeltas, start) TYPE(TimingDeltas, checkpoint) TYPE(Material, newAssocState) TYPE(Material,
+			stateTypeOk) OVERLOAD(Material, byId, const shared_ptr<Material> (*)(int, Scene*)) OVERLOAD(Material, byLabel,
+			const shared_ptr<Material> (*)(const std::string&, Scene*)) TYPE(State, axisDOF) TYPE(State, blockedDOFs_vec_get) TYPE(State,
+			blockedDOFs_vec_set) TYPE(Interaction, isReal) TYPE(Interaction, getId1) TYPE(Interaction, getId2) TYPE(Body,
+			userForcedDisplacementRedrawHook) TYPE(Body, getId) TYPE(Body, isClump) TYPE(Body, isClumpMember) TYPE(Body, isStandalone) TYPE(Body,
+			isDynamic) TYPE(Body, isBounded) TYPE(Body, isAspherical) TYPE(Body, setDynamic) TYPE(Body, setBounded) TYPE(Body, setAspherical)
+			TYPE(Body, maskOk) TYPE(Body, maskCompatible) OVERLOAD(Body, byId, const shared_ptr<Body>& (*)(Body::id_t, Scene*)) TYPE(
+				BodyContainer, insert) TYPE(BodyContainer, erase) TYPE(BodyContainer, clear) TYPE(BodyContainer, exists)
+				TYPE(BodyContainer, size) OVERLOAD(BodyContainer, operator[], shared_ptr<Body> & (BodyContainer::*)(unsigned int)) OVERLOAD(
+					BodyContainer, operator[], const shared_ptr<Body>& (BodyContainer::*)(unsigned int) const) TYPE(ForceContainer, sync)
+					TYPE(ForceContainer, ensureSynced) TYPE(ForceContainer, getForce) TYPE(ForceContainer, getTorque) TYPE(ForceContainer,
+						getPermForce) TYPE(ForceContainer, getPermTorque) TYPE(ForceContainer, addForce) TYPE(ForceContainer, addTorque)
+						TYPE(ForceContainer, setPermForce) TYPE(ForceContainer, setPermTorque) TYPE(ForceContainer, addMaxId)
+							TYPE(ForceContainer, reset) TYPE(ForceContainer, getPermForceUsed) TYPE(EnergyTracker, setItem_py)
+								TYPE(EnergyTracker, getItem_py) TYPE(EnergyTracker, clear) TYPE(EnergyTracker, total)
+									TYPE(EnergyTracker, keys_py) TYPE(Scene, moveToNextTimeStep) TYPE(Scene, engineByName)
+										TYPE(Scene, timeStepperPresent) TYPE(Scene, timeStepperActive)
+											TYPE(Scene, timeStepperActivate) TYPE(Omega, getScene)
+												TYPE(Omega, isRunning) TYPE(Omega, pause)
 													TYPE(Omega, isInheritingFrom)
 	}
 
