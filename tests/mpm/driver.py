@@ -82,6 +82,30 @@ for reloading, loss in (0, .0871), (inf, 0):
 	h = mpm.drive(BoucWenMat(**dict(steel, n=2, tolerance=1e-9, reloading=reloading)), pull((math.atanh(.8), math.atanh(.8) - .2, math.atanh(.8))), bar)
 	near('reloading = %g: what unloading by 0.2 and reloading loses' % reloading, .8 - h.stress[2, 0, 0]/yieldStress, loss, 1e-4 if loss else 1e-8)
 
+
+
+def drift(stress, count=2):
+	"""Growth of the strain per cycle, in yield strains, between 1.2 and -0.3 sigma_y; stress: of a path's end, over sigma_y."""
+	x = [0.]
+	for k in range(2*count + 1):
+		goal, low, high = (-.3, x[-1] - 3, x[-1]) if k % 2 else (1.2, x[-1], x[-1] + 6)
+		for _ in range(45):
+			middle = .5*(low + high)
+			low, high = (middle, high) if stress(x[1:] + [middle]) < goal else (low, middle)
+		x.append(middle)
+	return numpy.diff(x[1::2])
+
+
+def driven(material): return lambda x: mpm.drive(material, pull(x), bar).stress[-1, 0, 0]/yieldStress
+
+
+right = drift(lambda x: exact(4, .05, x)[-1])
+check('the law ratchets about a mean stress', right.min() > .1, right)
+near('n = 4: by as much as the exact solution', drift(driven(BoucWenMat(n=4, tangentRatio=.05, tolerance=1e-7, **steel))), right, 1e-5)
+near('n = 10: in the first cycle', drift(driven(BoucWenMat(n=10, tangentRatio=.05, tolerance=1e-6, **steel)), 1), (.2033,), 1e-4)
+near('reloading does not cure it', drift(driven(BoucWenMat(n=10, tangentRatio=.05, tolerance=1e-6, reloading=inf, **steel)), 1), (.2033,), 1e-4)
+near('classical plasticity closes that cycle', drift(driven(J2Mat(tangentRatio=.05, **steel))), (0, 0), 1e-6)
+
 # ---- a finite element ---------------------------------------------------------------------------------------------------
 
 for name in 'uniaxial_cyclic', 'square_syy0':

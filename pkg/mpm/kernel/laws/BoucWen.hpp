@@ -5,12 +5,8 @@
 
 namespace yade::mpm {
 
-/* Sub-steps are modified Euler pairs: Sloan, IJNME 24 (1987) 893; Sloan, Abbo & Sheng, Eng. Comput. 18 (2001) 121. Half
-the difference of the two slopes' stresses, over sigma_y, estimates the error of the first-order member and is kept below
-a quarter of the tolerance; the second-order member is carried on. Between loading and unloading lambda' has a kink: it falls to zero
-and rises again, at gamma > beta, and the two slopes may then agree by chance. There the greater one of difference and
-sum of the flows is the estimate. The next sub-step is scaled by 0.9 sqrt(admitted/error), within
-[0.1, 2], and does not grow right after a failure. Loading forgets errors, so that those of a path do not add up. */
+/* A modified Euler pair (Sloan, IJNME 24 (1987) 893; Sloan, Abbo & Sheng, Eng. Comput. 18 (2001) 121) covers a short increment at once;
+Cash & Karp's pair does the rest in sub-steps. boucwen/Integrate.hpp has the error bounds. */
 template <class S, int W, class T>
 void BoucWen::update(const Hooke& C, const Pack<W, T>* strain, Pack<W, T>* sigma, Pack<W, T>* internal, Responses<W, T>& response, int* subSteps) const
 {

@@ -224,7 +224,7 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Pack<W, T>* stra
 			const bool   kink  = kinks[l] != 0;
 			const double kink2 = ErrorBound::kink * ErrorBound::kink * sy * sy, cap2 = ErrorBound::cap * ErrorBound::cap * perFlow2 * sy * sy;
 			const double most2 = kink ? kink2 : std::min(cap2, part2 * perFlow2 * flow2 + least2 * length2);
-			excess[l]          = (kink & (flow2 > error2) ? flow2 : error2) / (tolerance * tolerance * most2 + 1e-300);
+			excess[l]          = ((kink & (flow2 > error2)) ? flow2 : error2) / (tolerance * tolerance * most2 + 1e-300);
 		});
 		if (end()) return giveUpLost();
 		advance([&](int l) {
