@@ -43,6 +43,7 @@ namespace {
 	{
 		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
 	}
+	bool isAffine(const std::string& name) { return choose<bool>("transfer", name, { { "flip", false }, { "affine", true } }); }
 } // namespace
 
 void MpmEngine::action()
@@ -105,7 +106,7 @@ Real MpmEngine::criticalTimeStep()
 	const mpm::StepControl control  = prepare();
 	readBodies();
 	checkValues();
-	return m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
+	return m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass, control.affine);
 }
 
 std::size_t MpmEngine::gridBytes() const
@@ -179,6 +180,7 @@ mpm::StepControl MpmEngine::prepare()
 		control.gravity[d] = gravity[int(d)];
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
+	control.affine      = isAffine(transfer);
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
@@ -333,7 +335,7 @@ void MpmEngine::forgetStep()
 /* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(control.affine), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
 		cellSize };
 	const auto&       kernelWalls = m_points->runtime.walls;
 	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
@@ -354,7 +356,7 @@ void MpmEngine::checkStep(const mpm::StepControl& control, bool stepper)
 	if (changed) acousticLimit = NaN; // for adaptStep(), which may be switched on later
 	if (!changed && control.dt <= checkedStep) return;
 	checkedStep      = 0;
-	const Real limit = m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass);
+	const Real limit = m_points->runtime.solver->criticalTimeStep(control.scheme, control.fullMass, control.affine);
 	if (control.dt > limit)
 		refuse("O", "dt", control.dt,
 			"the largest stable step of this scene is " + mpm::number(limit) + " s; "
@@ -369,7 +371,7 @@ void MpmEngine::adaptStep(mpm::StepControl& control, bool stepper)
 {
 	constexpr long interval = 500;
 	if (stiffnessChanged(control) || scene->iter % interval == 0 || !(acousticLimit > 0))
-		acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass);
+		acousticLimit = m_points->runtime.solver->acousticTimeStep(control.scheme, control.fullMass, control.affine);
 	const Real step = timeStepSafety / (1 / acousticLimit + m_points->runtime.solver->crossingRate());
 	scene->dt = control.dt = stepper ? std::min(scene->dt, step) : step;
 }

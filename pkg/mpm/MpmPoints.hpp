@@ -32,6 +32,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
+	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("spinUnknown", points.spinUnknown);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
@@ -135,6 +136,9 @@ public:
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
 	::boost::python::object array(const std::string& name);
 
+	/* For py/mpm: angular momentum of all points about a place [kg m2/s]. */
+	Vector3r angularMomentum(const Vector3r& about);
+
 	void preSave(MpmPoints&);
 	void postLoad(MpmPoints&);
 
@@ -161,6 +165,7 @@ public:
 		.def_readonly("groups", &MpmPoints::groups, "Names of groups 1, 2, ... of points [-].")
 		.def("ofScene", &MpmPoints::ofScene, "Points of the scene in hand, new ones if it has none; :yref:`mpm.fill` calls it.").staticmethod("ofScene")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
+		.def("angularMomentum", &MpmPoints::angularMomentum, "Angular momentum of all points about a place [kg m2/s]; :yref:`mpm.angularMomentum` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
 		.def("__len__", &MpmPoints::count)

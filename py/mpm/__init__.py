@@ -24,12 +24,12 @@ if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 from .driver import PointHistory, drive
 from .load import traction
 from .mesh import readMesh
-from .points import array, criticalTimeStep, fill, points, setStress
+from .points import angularMomentum, array, criticalTimeStep, fill, points, setStress
 from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
+__all__ = ['PointHistory', 'angularMomentum', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
 
 
 def __dir__(): return __all__

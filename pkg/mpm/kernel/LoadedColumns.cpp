@@ -60,7 +60,9 @@ std::string faultOf(const Points& points, std::size_t materials)
 				lengths("internal", points.internal, n), lengths("deformation", points.deformation, n),
 				optional("thicknessStretch", points.thicknessStretch.size(), n), optional("dissipation", points.dissipation.size(), n),
 				optional("freeStrain", points.freeStrain.size(), n), optional("fixed", points.fixed.size(), n), optional("touched", points.touched.size(), n),
-				number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }), lengths("moving", points.moving, n));
+				number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }), lengths("moving", points.moving, n),
+				number("angularVelocity", points.angularVelocity.size(), { 0, dim == 3 ? 3u : dim == 2 ? 1u : 0u }),
+				lengths("angularVelocity", points.angularVelocity, n), optional("spinUnknown", points.spinUnknown.size(), n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
@@ -110,7 +112,8 @@ std::string nonFiniteValue(const Points& points)
 		look(name, *column);
 	for (const auto& [name, columns] :
 		{ std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity), std::make_pair("stress", &points.stress),
-			std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation) })
+			std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation),
+			std::make_pair("angularVelocity", &points.angularVelocity) })
 		for (std::size_t k = 0; k < columns->size(); ++k)
 			look(std::string(name) + "[" + std::to_string(k) + "]", (*columns)[k]);
 	return fault;

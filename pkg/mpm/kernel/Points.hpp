@@ -36,7 +36,7 @@ struct Traction;
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress), fixed (no
-prescribed motion), touched, moving, spin, torque (no contacts).
+prescribed motion), touched, moving, spin, torque (no contacts), angularVelocity, spinUnknown (transfer of FLIP).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
@@ -57,6 +57,8 @@ struct Points {
 	std::vector<std::uint8_t> touched;                        // whether force follows the position: a contact's does; said anew at every step
 	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
 	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
+	Columns                   angularVelocity;                // affine transfer: W_p [rad/s], components as those of spin
+	std::vector<std::uint8_t> spinUnknown;                    // points whose W_p has to be found from the velocities; empty: none
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
 
@@ -69,7 +71,7 @@ struct Points {
 	{
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
-		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque })
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque, &angularVelocity })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -83,6 +85,7 @@ struct Points {
 		visit(group);
 		visit(fixed);
 		visit(touched);
+		visit(spinUnknown);
 	}
 
 	/* Adds an undeformed, stress-free point; prepare() gives it the columns that the analysis needs. */
@@ -116,6 +119,17 @@ struct Points {
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!fixed.empty()) fixed.resize(n, 0);
 		if (!touched.empty()) prepareContacts();
+		if (!angularVelocity.empty()) prepareRotation(int(angularVelocity.size()));
+	}
+	/* Gives every point an angular velocity with this number of components; those of new points have to be found. */
+	void prepareRotation(int components)
+	{
+		const std::size_t n = count(), before = angularVelocity.empty() ? 0 : angularVelocity.front().size();
+		if (before == n) return;
+		spinUnknown.resize(before, 0), spinUnknown.resize(n, 1);
+		angularVelocity.resize(std::size_t(components));
+		for (Column& column : angularVelocity)
+			column.resize(n, 0.);
 	}
 	/* Gives every point what points in contact need. */
 	void prepareContacts()

@@ -5,6 +5,7 @@
 #include "FaceLoads.hpp"
 #include "NullSpaceFilter.hpp"
 #include "PointChecks.hpp"
+#include "PointRotation.hpp"
 #include "StableStep.hpp"
 #include "StressUpdate.hpp"
 
@@ -34,8 +35,10 @@ public:
 		if (points().count() == 0) return;
 		m_control = control, m_d.transfer.threads = control.threads;
 		m_shown.reset();
+		if (control.affine != rotates(m_d)) finish(), startRotation();
 		if (control.trackEnergy && !points().energies.started) finish(), m_balance.start(m_d, m_analysis, m_laws, control.largeStrain);
 		layGrid();
+		if (!points().spinUnknown.empty()) findRotation(m_d, control);
 		lap("points sorted into tiles");
 		switch (control.scheme) {
 			case Scheme::musl: musl(); break;
@@ -54,13 +57,13 @@ public:
 		checkStress();
 	}
 
-	double acousticTimeStep(Scheme scheme, bool fullMass) override
+	double acousticTimeStep(Scheme scheme, bool fullMass, bool affine) override
 	{
 		if (points().count() == 0) return std::numeric_limits<double>::infinity();
 		finish();
 		if (!isLaid()) m_shown = nodes();
 		layGrid();
-		return StableStep<D>(m_d, m_laws, m_control).value(scheme, fullMass);
+		return StableStep<D>(m_d, m_laws, m_control).value(scheme, fullMass, affine && dim > 1);
 	}
 	double crossingRate() const override
 	{
@@ -75,6 +78,31 @@ public:
 	void        pointsChanged() override { m_sorted = m_known = false; }
 	std::size_t gridBytes() const override { return m_d.fields.bytes(); }
 	Analysis    analysis() const override { return m_analysis; }
+	Rotation    rotation(std::size_t p) const override
+	{
+		Rotation    result;
+		const auto& W = points().angularVelocity;
+		if (W.empty() || p >= W.front().size()) return result;
+		const auto cell = makeGeometry<dim>(m_cellSize, m_walls).cell;
+		double     spread[3] {};
+		for (std::size_t d = 0; d < std::size_t(dim); ++d) {
+			// the place in its cell that the grid has, or would have
+			const auto   geometry = makeGeometry<dim>(m_cellSize, m_walls);
+			const double r = Shape::usesSize ? .5 * points().size[p] / cell[d] : 0, xi = geometry.xi(int(d), points().position[d][p]);
+			const double base = std::floor(xi - Shape::shift(r));
+			double       N[Shape::support], dN[Shape::support];
+			Shape::evaluate(xi, base, r, N, dN);
+			for (int k = 0; k < Shape::support; ++k)
+				spread[d] += N[k] * (base + k - xi) * (base + k - xi) * cell[d] * cell[d];
+		}
+		for (std::size_t k = 0; k < W.size(); ++k) {
+			const std::size_t axis = dim == 3 ? k : 2;
+			const double      J    = points().mass[p] * (spread[turnsFrom<dim>(int(k))] + spread[turnsTo<dim>(int(k))]), w = W[k][p];
+			result.momentum[axis]  = J * w;
+			result.energy += .5 * J * w * w;
+		}
+		return result;
+	}
 	int         components() const override { return S::N; }
 
 	GridNodes nodes() const override
@@ -136,6 +164,7 @@ private:
 		endMotion();
 		lap("nodes to points and back");
 		deferStress(); // 16
+		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress last, with the nodal velocities that eq. 14 ends with. */
 	void usl()
@@ -146,6 +175,7 @@ private:
 		endMotion();
 		lap("nodes to points");
 		deferStress(); // 16
+		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress first, with the velocities that the points bring to the nodes. */
 	void usf()
@@ -216,13 +246,13 @@ private:
 		if (pic) m_d.constraints.keepMomentum(m_d.fields.momentum);
 		updateNodes(m_d, m_control, energies ? m_balance.damping() : nullptr);
 		const double share = pic ? m_d.constraints.addMomentumLoss(velocityAtStart(m_d.fields), (1 - m_control.flip) / m_control.dt, m_control.dt) : 0;
-		if (energies) m_balance.keepMotion(m_d);
+		if (energies) m_balance.keepMotion(m_d, m_control.dt);
 		m_added = correctsMass(m_control) ? correctIncrements(m_d, m_control, m_roundTrip) : AddedWallWork {};
 		m_added.pic += share;
 		lap("nodes");
 	}
 	/* Eq. 15, with MUSL's second mapping where remap. */
-	template <bool remap> void moveTile(std::size_t t) { gridToPoints<remap>(m_d, m_control.dt, m_control.flip, t, m_reports[t]); }
+	template <bool remap> void moveTile(std::size_t t) { gridToPoints<remap>(m_d, m_control, m_control.flip, t, m_reports[t]); }
 
 	/* When the points have their new velocities: work of the forces, points in contact, filter. */
 	void endMotion()
@@ -231,6 +261,16 @@ private:
 		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
 		if (!points().touched.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
 		if (m_control.filter > 0) filterVelocities(m_d, m_control);
+		if (m_control.trackEnergy) m_balance.keepKinetic(m_d);
+	}
+	/* Points carry rotation with the affine transfer, and with it alone. */
+	void startRotation()
+	{
+		Points& P = points();
+		if (m_control.affine && dim > 1)
+			P.prepareRotation(turns<dim>);
+		else
+			P.angularVelocity.clear(), P.spinUnknown.clear();
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
 	void updateStress(std::size_t t)

@@ -31,6 +31,7 @@ struct StepControl {
 	bool                  thinning       = false; // plane stress: the thickness follows the strain
 	bool                  meanDilatation = false; // plane strain, axisymmetric, 3D: the points of an element change their volume as one
 	bool                  fullMass       = false; // MUSL: the inverse of the full mass matrix, approximated, in place of the lumped one's
+	bool                  affine         = false; // points carry their rotation to the nodes and back (Rotation.hpp)
 	double                filter         = 0;     // part that is taken, after the step, off the velocities that the grid does not see
 	int                   threads        = 1;
 	bool                  trackEnergy    = false; // keep Points::energies and Points::dissipation
@@ -68,15 +69,26 @@ public:
 	virtual void pointsChanged() = 0;
 	/* Largest stable step for the points as they stand, at rest [s]: from the greatest eigenvalue of the discrete operator
 	with elastic stiffness. */
-	virtual double acousticTimeStep(Scheme scheme, bool fullMass = false) = 0;
+	virtual double acousticTimeStep(Scheme scheme, bool fullMass = false, bool affine = false) = 0;
 	/* Cells that the fastest point crosses in a second. */
 	virtual double crossingRate() const = 0;
 	/* Largest stable step: the two as rates. */
-	double criticalTimeStep(Scheme scheme, bool fullMass = false) { return 1 / (1 / acousticTimeStep(scheme, fullMass) + crossingRate()); }
+	double criticalTimeStep(Scheme scheme, bool fullMass = false, bool affine = false)
+	{
+		return 1 / (1 / acousticTimeStep(scheme, fullMass, affine) + crossingRate());
+	}
 	/* The nodes of the last step, with the velocities that it ended with. */
 	virtual GridNodes nodes() const = 0;
 	/* Bytes held by the grid. */
 	virtual std::size_t gridBytes() const = 0;
+
+	/* Angular momentum that a point carries beside m x x v, J_p W_p [kg m2/s], and its energy J_p W_p^2 / 2 [J]: zero but with the affine
+	transfer. Of points as they stand, after finish(). */
+	struct Rotation {
+		std::array<double, 3> momentum { 0, 0, 0 };
+		double                energy = 0;
+	};
+	virtual Rotation rotation(std::size_t p) const = 0;
 
 	virtual Analysis analysis() const   = 0;
 	virtual int      components() const = 0; // of a stress
