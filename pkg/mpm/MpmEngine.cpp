@@ -43,7 +43,18 @@ namespace {
 	{
 		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
 	}
-	bool isAffine(const std::string& name) { return choose<bool>("transfer", name, { { "flip", false }, { "affine", true } }); }
+	enum class TransferKind { automatic, flip, affine };
+	TransferKind transferOf(const std::string& name)
+	{
+		return choose<TransferKind>(
+			"transfer", name, { { "auto", TransferKind::automatic }, { "flip", TransferKind::flip }, { "affine", TransferKind::affine } });
+	}
+	/* Linear functions and GIMP shake the rotation where points cross cells, and USF strains with velocities of half a step before. */
+	bool isAffine(TransferKind transfer, mpm::ShapeKind shape, mpm::Scheme scheme)
+	{
+		if (transfer != TransferKind::automatic) return transfer == TransferKind::affine;
+		return (shape == mpm::ShapeKind::quadratic || shape == mpm::ShapeKind::cubic) && scheme != mpm::Scheme::usf;
+	}
 } // namespace
 
 void MpmEngine::action()
@@ -180,7 +191,7 @@ mpm::StepControl MpmEngine::prepare()
 		control.gravity[d] = gravity[int(d)];
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
-	control.affine      = isAffine(transfer);
+	control.affine      = isAffine(transferOf(transfer), shapeOf(shape), control.scheme);
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
@@ -335,8 +346,8 @@ void MpmEngine::forgetStep()
 /* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(control.affine), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
-		cellSize };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(control.affine), Real(m_points->count()), Real(analysisOf(analysis)),
+		Real(shapeOf(shape)), cellSize };
 	const auto&       kernelWalls = m_points->runtime.walls;
 	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
 		now.push_back(std::round(20 * std::log(cell / cellSize))); // walls stretch cells; in steps of 5 %

@@ -101,6 +101,7 @@ void MpmPoints::setMass(std::size_t p, Real mass)
 	if (points.energies.started)
 		for (const mpm::Column& v : points.velocity)
 			points.energies.external -= .5 * (mass - now) * v[p] * v[p];
+	if (points.energies.started && runtime.solver) points.energies.external -= (mass / now - 1) * runtime.solver->rotation(p).energy;
 	now = mass;
 }
 

@@ -32,7 +32,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
-	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("spinUnknown", points.spinUnknown);
+	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("meanSpin", points.meanSpin) & make_nvp("spinUnknown", points.spinUnknown);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)

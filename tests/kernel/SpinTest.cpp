@@ -15,17 +15,17 @@ using Vector = Eigen::Vector3d;
 constexpr double side = .4, density = 1200;
 
 struct Spinning {
-	Analysis  analysis  = Analysis::planeStress;
-	ShapeKind shape     = ShapeKind::cubic;
-	int       across    = 10;
-	double    young     = 1e6;
-	Vector    axis      = { 0, 0, 5 };
-	double    part      = .5; // of the stable step
-	bool      affine    = true;
-	bool      energies  = false;
-	bool      fullMass  = false;
-	Scheme    scheme    = Scheme::musl;
-	int       threads   = 1;
+	Analysis  analysis = Analysis::planeStress;
+	ShapeKind shape    = ShapeKind::cubic;
+	int       across   = 10;
+	double    young    = 1e6;
+	Vector    axis     = { 0, 0, 5 };
+	double    part     = .5; // of the stable step
+	bool      affine   = true;
+	bool      energies = false;
+	bool      fullMass = false;
+	Scheme    scheme   = Scheme::musl;
+	int       threads  = 1;
 	Scene     scene {};
 	double    cell() const { return 2 * side / across; }
 
@@ -78,7 +78,7 @@ struct Spinning {
 			const auto     at = scene.byId();
 			const Columns& s  = scene.points.stress;
 			for (std::size_t i = 0; i < at.size(); ++i) {
-				const std::size_t p = at[i];
+				const std::size_t p  = at[i];
 				double            xx = s[0][p], yy = s[1][p], zz = 0, shear = 0;
 				if (s.size() == 3) shear = s[2][p] * s[2][p];
 				if (s.size() == 6) zz = s[2][p], shear = s[3][p] * s[3][p] + s[4][p] * s[4][p] + s[5][p] * s[5][p];
@@ -155,8 +155,7 @@ TEST(SpinTest, EnergiesClose)
 	s.scene.run(s.stepsOf(1));
 	const Energies after = s.scene.points.energies;
 	EXPECT_NEAR(after.total() / before.total(), 1, 5e-4);
-	EXPECT_GE(after.damping, 0);
-	EXPECT_LT(after.damping, 2e-3 * after.kinetic);
+	EXPECT_LT(std::abs(after.damping), 2e-3 * after.kinetic);
 	double carried = 0;
 	for (std::size_t p = 0; p < s.scene.points.count(); ++p)
 		carried += s.scene.solver->rotation(p).energy;
@@ -165,12 +164,38 @@ TEST(SpinTest, EnergiesClose)
 	EXPECT_NEAR(after.kinetic, s.scene.kineticEnergy() + carried, 1e-3 * after.kinetic);
 }
 
+/* The relaxation is for bodies that turn: a cantilever in its first mode keeps its energy for ten periods. With a rate that follows the
+spin itself, in place of its mean, it loses 0.7 %. */
+TEST(SpinTest, BendingKeepsItsEnergy)
+{
+	const double length = 1, depth = .2, k = 1.8751, young = 1e6;
+	for (ShapeKind shape : { ShapeKind::quadratic, ShapeKind::cubic }) {
+		SCOPED_TRACE(name(shape));
+		Scene s;
+		s.laws = { Scene::elastic(young, .3, density) };
+		s.addBox(2, { 0, .1, 0 }, { length, .1 + depth, 0 }, depth / 8);
+		s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed) };
+		s.setVelocity([&](auto x) {
+			const double y = k * x[0] / length;
+			return std::array<double, 3> { 0, .02 * (std::cosh(y) - std::cos(y) - .7341 * (std::sinh(y) - std::sin(y))), 0 };
+		});
+		s.control.affine = true, s.control.trackEnergy = true;
+		s.start(Analysis::planeStress, shape, depth / 4);
+		s.control.dt = .5 * s.solver->criticalTimeStep(Scheme::musl, false, true);
+		s.run(1);
+		const double before = s.points.energies.total();
+		const double period = 2 * std::acos(-1.) / (k * k) * length * length / std::sqrt(young * depth * depth / 12 / density);
+		s.run(int(10 * period / s.control.dt));
+		EXPECT_LT(std::abs(s.points.energies.damping), 5e-4 * before);
+		EXPECT_NEAR(s.points.energies.total(), before, 3e-3 * before);
+	}
+}
+
 /* A translation has no rotation, and passes as with FLIP. */
 TEST(SpinTest, TranslationCarriesNone)
 {
 	Spinning s;
-	s.axis.setZero(), s.part = 0;
-	s.scene.control.dt = 1;
+	s.axis.setZero();
 	s.start();
 	for (double W : s.scene.points.angularVelocity.front())
 		EXPECT_NEAR(W, 0, 1e-12);

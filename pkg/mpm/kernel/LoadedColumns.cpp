@@ -61,8 +61,12 @@ std::string faultOf(const Points& points, std::size_t materials)
 				optional("thicknessStretch", points.thicknessStretch.size(), n), optional("dissipation", points.dissipation.size(), n),
 				optional("freeStrain", points.freeStrain.size(), n), optional("fixed", points.fixed.size(), n), optional("touched", points.touched.size(), n),
 				number("moving", points.moving.size(), { points.touched.empty() ? 0 : dim }), lengths("moving", points.moving, n),
-				number("angularVelocity", points.angularVelocity.size(), { 0, dim == 3 ? 3u : dim == 2 ? 1u : 0u }),
-				lengths("angularVelocity", points.angularVelocity, n), optional("spinUnknown", points.spinUnknown.size(), n));
+				number("angularVelocity", points.angularVelocity.size(),
+					{ 0, dim == 3      ? 3u
+						: dim == 2 ? 1u
+							   : 0u }),
+				lengths("angularVelocity", points.angularVelocity, n), number("meanSpin", points.meanSpin.size(), { points.angularVelocity.size() }),
+				lengths("meanSpin", points.meanSpin, n), optional("spinUnknown", points.spinUnknown.size(), n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
@@ -110,10 +114,9 @@ std::string nonFiniteValue(const Points& points)
 			std::make_pair("thickness", &points.thickness), std::make_pair("thicknessStretch", &points.thicknessStretch),
 			std::make_pair("dissipation", &points.dissipation), std::make_pair("freeStrain", &points.freeStrain) })
 		look(name, *column);
-	for (const auto& [name, columns] :
-		{ std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity), std::make_pair("stress", &points.stress),
-			std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation),
-			std::make_pair("angularVelocity", &points.angularVelocity) })
+	for (const auto& [name, columns] : { std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity),
+		     std::make_pair("stress", &points.stress), std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation),
+		     std::make_pair("angularVelocity", &points.angularVelocity), std::make_pair("meanSpin", &points.meanSpin) })
 		for (std::size_t k = 0; k < columns->size(); ++k)
 			look(std::string(name) + "[" + std::to_string(k) + "]", (*columns)[k]);
 	return fault;

@@ -36,7 +36,8 @@ struct Traction;
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress), fixed (no
-prescribed motion), touched, moving, spin, torque (no contacts), angularVelocity, spinUnknown (transfer of FLIP).
+prescribed motion), touched, moving, spin, torque (no contacts), angularVelocity, meanSpin, spinUnknown
+(transfer of FLIP).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
@@ -58,6 +59,7 @@ struct Points {
 	Columns                   moving, spin;                   // of a touched point in the last step: velocity it has moved with, curl of it / 2
 	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
 	Columns                   angularVelocity;                // affine transfer: W_p [rad/s], components as those of spin
+	Columns                   meanSpin;                       // likewise: mean spin of the material, StressUpdate.hpp [rad/s]
 	std::vector<std::uint8_t> spinUnknown;                    // points whose W_p has to be found from the velocities; empty: none
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
@@ -71,7 +73,8 @@ struct Points {
 	{
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
-		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque, &angularVelocity })
+		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &advance, &force, &moving, &spin, &torque,
+			     &angularVelocity, &meanSpin })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -127,9 +130,11 @@ struct Points {
 		const std::size_t n = count(), before = angularVelocity.empty() ? 0 : angularVelocity.front().size();
 		if (before == n) return;
 		spinUnknown.resize(before, 0), spinUnknown.resize(n, 1);
-		angularVelocity.resize(std::size_t(components));
-		for (Column& column : angularVelocity)
-			column.resize(n, 0.);
+		for (Columns* columns : { &angularVelocity, &meanSpin }) {
+			columns->resize(std::size_t(components));
+			for (Column& column : *columns)
+				column.resize(n, 0.);
+		}
 	}
 	/* Gives every point what points in contact need. */
 	void prepareContacts()

@@ -155,13 +155,13 @@ private:
 				m_start[a][i] -= with[a][i];
 	}
 	/* Changes of the angular velocity of a point: gathered from the nodes, and taken. Books the work of prescribed motion and PIC. */
-	void takenTurn(const Points& P, std::size_t p, double flip, const Arms<dim, typename D::Shape>& arms, const double* gathered,
-		double* taken, Energies& half) const
+	void takenTurn(const Points& P, std::size_t p, double flip, const Arms<dim, typename D::Shape>& arms, const double* gathered, double* taken,
+		Energies& half) const
 	{
 		const bool fixed = !P.fixed.empty() && P.fixed[p];
 		for (std::size_t k = 0; k < std::size_t(turns<dim>); ++k) {
-			const double old = m_spin[k][p];
-			taken[k]         = flip == 1 && !fixed ? gathered[k] : P.angularVelocity[k][p] - old;
+			const double old  = m_spin[k][p];
+			taken[k]          = flip == 1 && !fixed ? gathered[k] : P.angularVelocity[k][p] - old;
 			const double work = .5 * P.mass[p] * arms.inertia(int(k)) * (taken[k] - gathered[k]) * (old + .5 * taken[k]);
 			(fixed ? half.walls : half.damping) -= work;
 		}
@@ -191,9 +191,9 @@ private:
 			}
 			if constexpr (dim > 1)
 				if (rotates(d)) {
-					const Arms<dim, typename D::Shape>         arms(w, d.transfer.geometry.cell);
+					const Arms<dim, typename D::Shape>   arms(w, d.transfer.geometry.cell);
 					RotationRows<dim, typename D::Shape> rotation;
-					double                                     motion[dim], gathered[turns<dim>], turn[turns<dim>];
+					double                               motion[dim], gathered[turns<dim>], turn[turns<dim>];
 					gatherMotion(w, arms, change, motion, gathered);
 					takenTurn(P, p, flip, arms, gathered, turn, half);
 					rotation.set(arms, .5 * m, turn, 0);

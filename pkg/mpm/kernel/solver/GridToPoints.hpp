@@ -58,12 +58,12 @@ namespace detail {
 
 	/* Velocities and angular velocities that the nodal increments dv, and where `both` the velocities v, give to a lane's point. */
 	template <class D>
-	void gatherLane(const D& d, const typename D::Weights& w, int l, bool both, const typename D::Values (&v)[D::dim], const typename D::Values (&dv)[D::dim],
-		Lanes (&vp)[D::dim], Lanes (&dvp)[D::dim], Lanes (&Wp)[turns<D::dim>], Lanes (&dWp)[turns<D::dim>])
+	void gatherLane(const D& d, const typename D::Weights& w, int l, bool both, const typename D::Values (&v)[D::dim],
+		const typename D::Values (&dv)[D::dim], Lanes (&vp)[D::dim], Lanes (&dvp)[D::dim], Lanes (&Wp)[turns<D::dim>], Lanes (&dWp)[turns<D::dim>])
 	{
-		constexpr int                            dim = D::dim;
+		constexpr int                      dim = D::dim;
 		const Arms<dim, typename D::Shape> arms(w, d.transfer.geometry.cell);
-		double                                   u[dim], W[turns<dim>];
+		double                             u[dim], W[turns<dim>];
 		gatherMotion(w, arms, dv, u, W);
 		for (int a = 0; a < dim; ++a)
 			dvp[a][l] = u[a];
@@ -77,8 +77,7 @@ namespace detail {
 			Wp[k][l] = W[k];
 	}
 	/* New angular velocities of a block. */
-	template <class D>
-	void turnPoints(D& d, Block block, double flip, const Lanes (&Wp)[turns<D::dim>], const Lanes (&dWp)[turns<D::dim>])
+	template <class D> void turnPoints(D& d, Block block, double flip, const Lanes (&Wp)[turns<D::dim>], const Lanes (&dWp)[turns<D::dim>])
 	{
 		Points& P = d.transfer.points;
 		for (int k = 0; k < turns<D::dim>; ++k) {

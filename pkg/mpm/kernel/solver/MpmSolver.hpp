@@ -35,10 +35,11 @@ public:
 		if (points().count() == 0) return;
 		m_control = control, m_d.transfer.threads = control.threads;
 		m_shown.reset();
-		if (control.affine != rotates(m_d)) finish(), startRotation();
+		if ((control.affine && dim > 1) != rotates(m_d)) finish(), startRotation();
 		if (control.trackEnergy && !points().energies.started) finish(), m_balance.start(m_d, m_analysis, m_laws, control.largeStrain);
 		layGrid();
-		if (!points().spinUnknown.empty()) findRotation(m_d, control);
+		if (!points().spinUnknown.empty()) findRotation(m_d, control, m_rounds);
+		m_rounds = 4;
 		lap("points sorted into tiles");
 		switch (control.scheme) {
 			case Scheme::musl: musl(); break;
@@ -97,13 +98,13 @@ public:
 		}
 		for (std::size_t k = 0; k < W.size(); ++k) {
 			const std::size_t axis = dim == 3 ? k : 2;
-			const double      J    = points().mass[p] * (spread[turnsFrom<dim>(int(k))] + spread[turnsTo<dim>(int(k))]), w = W[k][p];
-			result.momentum[axis]  = J * w;
+			const double      J = points().mass[p] * (spread[turnsFrom<dim>(int(k))] + spread[turnsTo<dim>(int(k))]), w = W[k][p];
+			result.momentum[axis] = J * w;
 			result.energy += .5 * J * w * w;
 		}
 		return result;
 	}
-	int         components() const override { return S::N; }
+	int components() const override { return S::N; }
 
 	GridNodes nodes() const override
 	{
@@ -146,6 +147,7 @@ private:
 	bool                     m_known        = false; // points are in the tiles of the grid, unless a report marks a tile as left
 	bool                     m_sorted       = false; // all of them are
 	bool                     m_stressDue    = false;
+	int                      m_rounds       = 4; // of finding the rotation of points, in the next step
 
 	Points&       points() { return m_d.transfer.points; }
 	const Points& points() const { return m_d.transfer.points; }
@@ -163,7 +165,7 @@ private:
 		if (correctsMass(m_control)) correctVelocities(m_d, m_control, m_roundTrip, m_reports);
 		endMotion();
 		lap("nodes to points and back");
-		deferStress(); // 16
+		deferStress();              // 16
 		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress last, with the nodal velocities that eq. 14 ends with. */
@@ -174,7 +176,7 @@ private:
 		m_d.transfer.forEachTile([this](std::size_t t) { moveTile<false>(t); }); // 15
 		endMotion();
 		lap("nodes to points");
-		deferStress(); // 16
+		deferStress();              // 16
 		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress first, with the velocities that the points bring to the nodes. */
@@ -268,9 +270,12 @@ private:
 	{
 		Points& P = points();
 		if (m_control.affine && dim > 1)
-			P.prepareRotation(turns<dim>);
-		else
-			P.angularVelocity.clear(), P.spinUnknown.clear();
+			P.prepareRotation(turns<dim>), m_rounds = 100;
+		else {
+			for (std::size_t p = 0; p < P.count() && P.energies.started; ++p)
+				P.energies.external += rotation(p).energy, P.energies.kinetic -= rotation(p).energy;
+			P.angularVelocity.clear(), P.meanSpin.clear(), P.spinUnknown.clear();
+		}
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
 	void updateStress(std::size_t t)

@@ -9,11 +9,11 @@ namespace yade::mpm {
 control.filter of them is removed, with the affine transfer of v_p and W_p together. At a wall they carry momentum, which goes into its reaction. */
 template <class D> void filterVelocities(D& d, const StepControl& control)
 {
-	constexpr int      dim    = D::dim;
-	Points&            P      = d.transfer.points;
-	const double       before = control.trackEnergy ? kineticEnergy(d) : 0, rate = control.filter / control.dt, tau = .5 * control.dt;
-	const bool         affine = rotates(d);
-	NodeVector<dim>    seen, trip;
+	constexpr int   dim    = D::dim;
+	Points&         P      = d.transfer.points;
+	const double    before = control.trackEnergy ? kineticEnergy(d) : 0, rate = control.filter / control.dt, tau = .5 * control.dt;
+	const bool      affine = rotates(d);
+	NodeVector<dim> seen, trip;
 	spreadVelocities(d.transfer, noField<dim>, seen, affine, tau);
 	double work = projectWithReactions(d, seen, Motion::velocity, rate, control.dt);
 	spreadVelocities(d.transfer, &seen, trip, affine, tau);

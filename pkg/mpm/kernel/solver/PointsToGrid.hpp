@@ -73,12 +73,12 @@ namespace detail {
 	template <Sums sums, bool affine, class S, class Shape>
 	void spreadTile(const Transfer<S::dim, Shape>& transfer, NodeFields<S>& fields, const StepControl& control, std::size_t t)
 	{
-		constexpr int  dim    = S::dim, row = Shape::row;
+		constexpr int  dim = S::dim, row = Shape::row;
 		constexpr bool motion = sums != Sums::forces, forces = sums != Sums::motion, rotates = affine && motion;
-		using Patch            = mpm::Patch<dim, Shape>;
-		using Values           = typename Patch::Values;
-		const auto&   tile     = transfer.grid.tiles()[t];
-		const Points& points   = transfer.points;
+		using Patch          = mpm::Patch<dim, Shape>;
+		using Values         = typename Patch::Values;
+		const auto&   tile   = transfer.grid.tiles()[t];
+		const Points& points = transfer.points;
 		Values        m {}, mv[dim] {}, f[dim] {}, pressure;
 		const bool    averaged = forces && averagesDilatation<S>(control);
 		if (averaged) elementPressures<S>(transfer, tile, control, pressure);
@@ -91,8 +91,8 @@ namespace detail {
 			if (averaged) takeMeanPressure<S, Shape>(points, block, control, w, pressure, x[0], fp, Vs);
 			for (int l = 0; l < block.count; ++l) {
 				// along x, all that a row's weights across will multiply
-				alignas(8 * row) double rm[row], rmv[dim][row], rf[dim][dim][row];
-				const double *          N = w[l].N[0], *dN = w[l].dN[0];
+				alignas(8 * row) double     rm[row], rmv[dim][row], rf[dim][dim][row];
+				const double *              N = w[l].N[0], *dN = w[l].dN[0];
 				RowsOf<rotates, dim, Shape> rotation;
 				if constexpr (rotates) rotation.set(points, block, l, w[l], transfer.geometry.cell, mp[l], -.5 * control.dt);
 #pragma omp simd

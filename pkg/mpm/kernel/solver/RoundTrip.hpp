@@ -32,8 +32,7 @@ namespace detail {
 					const Arms<dim, Shape>   arms(w[l], transfer.geometry.cell);
 					RotationRows<dim, Shape> rotation;
 					double                   u[dim], W[turns<dim>];
-					if (v)
-						gatherMotion(w[l], arms, field, u, W);
+					if (v) gatherMotion(w[l], arms, field, u, W);
 					for (int d = 0; d < dim; ++d)
 						u[d] = v ? mp[l] * u[d] : mvp[d][l];
 					if (v)

@@ -15,8 +15,9 @@ namespace yade::mpm {
 displacement increment. Points of a block that share a law are updated at once, others one by one.
 
 With the affine transfer a point moves with the velocities that strain it, x_p += dt sum N_ip v_i, since only then F and x go on
-agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 4 |w|: while the lattice turns
-over the grid by an angle, W_p forgets what the grid does not see of it. A motion without spin keeps W_p. */
+agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 32 |s|, with s the mean of w over the
+last ten radians of turning: while the lattice turns over the grid, W_p forgets the part that the grid does not see. The spin of a vibration
+changes its sign within a small angle, so that s stays small and W_p keeps its energy. */
 template <class D> struct StressUpdate {
 	using S                   = typename D::S;
 	using Shape               = typename D::Shape;
@@ -122,24 +123,30 @@ private:
 		}
 		return inside;
 	}
-	/* W += b (w - W), b = 4 theta/(1 + 4 theta), theta = dt |w| the angle of the step. */
+	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/10; then W += b (w - W) with b = a/(1 + a), a = 32 dt |s|. */
 	void relaxRotation(std::size_t t, Block block, const WeightLanes<dim, Shape>& w, const Lanes (&G)[gradients<S>])
 	{
-		Points&      P    = points();
-		constexpr double rate = 4; // a body that spins with less of it shakes, with more it loses spin: doc/method.md
+		Points&          P    = points();
+		constexpr double rate = 32, memory = 10; // less rate: a body that spins shakes; less memory: vibrations lose energy; doc/method.md
 		const double     perSecond = 1 / control.dt;
-		Lanes        turn[turns<dim>], W[turns<dim>], part;
+		Lanes            turn[turns<dim>], W[turns<dim>], mean[turns<dim>], part;
 		for (int k = 0; k < turns<dim>; ++k) {
 			const int from = turnsFrom<dim>(k), to = turnsTo<dim>(k);
 			forLanes([&](int l) { turn[k][l] = .5 * (G[to * dim + from][l] - G[from * dim + to][l]); });
 			load(P.angularVelocity[std::size_t(k)], block, W[k]);
+			load(P.meanSpin[std::size_t(k)], block, mean[k]);
 		}
 		forLanes([&](int l) {
-			double square = 0;
+			double square = 0, squareOfMean = 0;
 			for (int k = 0; k < turns<dim>; ++k)
 				square += turn[k][l] * turn[k][l];
-			const double theta = std::sqrt(square);
-			part[l]            = rate * theta / (1 + rate * theta);
+			const double theta = std::sqrt(square), taken = theta / (memory + theta);
+			for (int k = 0; k < turns<dim>; ++k) {
+				mean[k][l] += taken * (perSecond * turn[k][l] - mean[k][l]);
+				squareOfMean += mean[k][l] * mean[k][l];
+			}
+			const double angle = rate * control.dt * std::sqrt(squareOfMean);
+			part[l]            = angle / (1 + angle);
 		});
 		for (int l = 0; energies && l < block.count; ++l) {
 			const Arms<dim, Shape> arms(w[l], d.transfer.geometry.cell);
@@ -151,6 +158,7 @@ private:
 		for (int k = 0; k < turns<dim>; ++k) {
 			forLanes([&](int l) { W[k][l] += part[l] * (perSecond * turn[k][l] - W[k][l]); });
 			store(W[k], block, P.angularVelocity[std::size_t(k)]);
+			store(mean[k], block, P.meanSpin[std::size_t(k)]);
 		}
 	}
 	void move(Block block, Lanes (&x)[dim])

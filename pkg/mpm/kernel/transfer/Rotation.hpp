@@ -104,8 +104,8 @@ template <bool rotates, int dim, class Shape> using RowsOf = std::conditional_t<
 
 /* (m v)_i += N_ip m_p [v_p + C_p (x_i - x_p)] of one point. */
 template <int dim, class Shape>
-void spreadAffineMomentum(const Weights<dim, Shape>& w, const double (&mv)[dim], const RotationRows<dim, Shape>& rotation,
-	typename Patch<dim, Shape>::Values (&sum)[dim])
+void spreadAffineMomentum(
+	const Weights<dim, Shape>& w, const double (&mv)[dim], const RotationRows<dim, Shape>& rotation, typename Patch<dim, Shape>::Values (&sum)[dim])
 {
 	constexpr int           row = Shape::row;
 	alignas(8 * row) double along[dim][row];
@@ -174,8 +174,8 @@ namespace detail {
 
 /* What a nodal field gives to a point: velocity and angular velocity. */
 template <int dim, class Shape>
-void gatherMotion(const Weights<dim, Shape>& w, const Arms<dim, Shape>& arms, const typename Patch<dim, Shape>::Values* field, double (&v)[dim],
-	double (&W)[turns<dim>])
+void gatherMotion(
+	const Weights<dim, Shape>& w, const Arms<dim, Shape>& arms, const typename Patch<dim, Shape>::Values* field, double (&v)[dim], double (&W)[turns<dim>])
 {
 	double moment[dim][dim];
 	v[0] = detail::gatherMoments<0>(w, arms, field[0], moment[0]);
@@ -183,7 +183,7 @@ void gatherMotion(const Weights<dim, Shape>& w, const Arms<dim, Shape>& arms, co
 	if constexpr (dim == 3) v[2] = detail::gatherMoments<2>(w, arms, field[2], moment[2]);
 	for (int k = 0; k < turns<dim>; ++k) {
 		const int from = turnsFrom<dim>(k), to = turnsTo<dim>(k);
-		W[k]           = (moment[to][from] - moment[from][to]) / arms.inertia(k);
+		W[k] = (moment[to][from] - moment[from][to]) / arms.inertia(k);
 	}
 }
 
@@ -198,7 +198,8 @@ template <int dim, class Shape> double spinEnergy(const Transfer<dim, Shape>& tr
 			for (std::size_t p = tile.begin; p < tile.end; ++p) {
 				const Arms<dim, Shape> arms(transfer.weights(tile, p), transfer.geometry.cell);
 				for (int k = 0; k < turns<dim>; ++k)
-					energy += .5 * P.mass[p] * arms.inertia(k) * P.angularVelocity[std::size_t(k)][p] * P.angularVelocity[std::size_t(k)][p];
+					energy +=
+						.5 * P.mass[p] * arms.inertia(k) * P.angularVelocity[std::size_t(k)][p] * P.angularVelocity[std::size_t(k)][p];
 			}
 	return energy;
 }
