@@ -49,11 +49,12 @@ namespace {
 		return choose<TransferKind>(
 			"transfer", name, { { "auto", TransferKind::automatic }, { "flip", TransferKind::flip }, { "affine", TransferKind::affine } });
 	}
-	/* Linear functions and GIMP shake the rotation where points cross cells, and USF strains with velocities of half a step before. */
-	bool isAffine(TransferKind transfer, mpm::ShapeKind shape, mpm::Scheme scheme)
+	/* Linear functions and GIMP shake the rotation where points cross cells, USF strains with velocities of half a step before, and a coarse
+	block that slides on grains or facets begins to flutter. */
+	bool isAffine(TransferKind transfer, mpm::ShapeKind shape, mpm::Scheme scheme, bool contacts)
 	{
 		if (transfer != TransferKind::automatic) return transfer == TransferKind::affine;
-		return (shape == mpm::ShapeKind::quadratic || shape == mpm::ShapeKind::cubic) && scheme != mpm::Scheme::usf;
+		return (shape == mpm::ShapeKind::quadratic || shape == mpm::ShapeKind::cubic) && scheme != mpm::Scheme::usf && !contacts;
 	}
 } // namespace
 
@@ -191,7 +192,7 @@ mpm::StepControl MpmEngine::prepare()
 		control.gravity[d] = gravity[int(d)];
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
-	control.affine      = isAffine(transferOf(transfer), shapeOf(shape), control.scheme);
+	control.affine      = isAffine(transferOf(transfer), shapeOf(shape), control.scheme, m_order.hasContacts());
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();

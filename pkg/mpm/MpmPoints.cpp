@@ -101,7 +101,7 @@ void MpmPoints::setMass(std::size_t p, Real mass)
 	if (points.energies.started)
 		for (const mpm::Column& v : points.velocity)
 			points.energies.external -= .5 * (mass - now) * v[p] * v[p];
-	if (points.energies.started && runtime.solver) points.energies.external -= (mass / now - 1) * runtime.solver->rotation(p).energy;
+	if (points.energies.started) points.energies.external -= (mass / now - 1) * rotation(p).energy;
 	now = mass;
 }
 
@@ -166,7 +166,7 @@ void MpmPoints::dropErased(const BodyContainer& bodies)
 			Real                kinetic = 0;
 			for (const mpm::Column& v : points.velocity)
 				kinetic += .5 * points.mass[p] * v[p] * v[p];
-			if (runtime.solver) kinetic += runtime.solver->rotation(p).energy;
+			kinetic += rotation(p).energy;
 			energies.external += kinetic + elastic + hardening;
 			energies.elastic -= elastic, energies.hardening -= hardening;
 		}
@@ -580,6 +580,13 @@ py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strai
 	return result;
 }
 
+mpm::PointRotation MpmPoints::rotation(std::size_t p) const
+{
+	if (runtime.solver) return runtime.solver->rotation(p);
+	if (points.spread.size() != 3) return {};
+	return mpm::PointRotation::of(points, p, { points.spread[0], points.spread[1], points.spread[2] });
+}
+
 Vector3r MpmPoints::angularMomentum(const Vector3r& about)
 {
 	const std::lock_guard<std::mutex> lock(mutex);
@@ -589,8 +596,7 @@ Vector3r MpmPoints::angularMomentum(const Vector3r& about)
 		const Vector3r x(points.position[0][p], points.position[1][p], points.position[2][p]);
 		const Vector3r v(points.velocity[0][p], points.velocity[1][p], points.velocity[2][p]);
 		sum += points.mass[p] * (x - about).cross(v);
-		if (!runtime.solver) continue;
-		const auto carried = runtime.solver->rotation(p).momentum;
+		const auto carried = rotation(p).momentum;
 		sum += Vector3r(carried[0], carried[1], carried[2]);
 	}
 	return sum;

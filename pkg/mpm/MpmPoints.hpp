@@ -33,6 +33,7 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Points& poi
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("touched", points.touched) & make_nvp("moving", points.moving);
 	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("meanSpin", points.meanSpin) & make_nvp("spinUnknown", points.spinUnknown);
+	archive& make_nvp("spread", points.spread);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Continuity& continuity, const unsigned int)
@@ -138,6 +139,8 @@ public:
 
 	/* For py/mpm: angular momentum of all points about a place [kg m2/s]. */
 	Vector3r angularMomentum(const Vector3r& about);
+	/* Angular momentum and energy of the rotation that a point carries; a loaded scene has no solver before its first step. */
+	mpm::PointRotation rotation(std::size_t p) const;
 
 	void preSave(MpmPoints&);
 	void postLoad(MpmPoints&);

@@ -10,7 +10,7 @@
 	sigma = mpm.array('stress')
 
 fill makes points of a region, points makes them from arrays, setStress gives them a stress to start with, traction loads a face; array
-looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single point through strains
+looks at them, color shows them in the 3D view, angularMomentum sums it, criticalTimeStep says how far a step may go; drive takes a single point through strains
 (PointHistory), readStl reads a surface to fill, readMesh a mesh. Classes: MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the
 materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
 

@@ -65,8 +65,9 @@ std::string faultOf(const Points& points, std::size_t materials)
 					{ 0, dim == 3      ? 3u
 						: dim == 2 ? 1u
 							   : 0u }),
-				lengths("angularVelocity", points.angularVelocity, n), number("meanSpin", points.meanSpin.size(), { points.angularVelocity.size() }),
-				lengths("meanSpin", points.meanSpin, n), optional("spinUnknown", points.spinUnknown.size(), n));
+				lengths("angularVelocity", points.angularVelocity, n), number("spread", points.spread.size(), { 0, 3 }),
+				number("meanSpin", points.meanSpin.size(), { points.angularVelocity.size() }), lengths("meanSpin", points.meanSpin, n),
+				optional("spinUnknown", points.spinUnknown.size(), n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";

@@ -36,7 +36,7 @@ struct Traction;
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress), fixed (no
-prescribed motion), touched, moving, spin, torque (no contacts), angularVelocity, meanSpin, spinUnknown
+prescribed motion), touched, moving, spin, torque (no contacts), angularVelocity, meanSpin, spread, spinUnknown
 (transfer of FLIP).
 */
 struct Points {
@@ -60,6 +60,7 @@ struct Points {
 	Columns                   torque;                         // on a touched point [Nm]; like spin three components, z alone in the plane
 	Columns                   angularVelocity;                // affine transfer: W_p [rad/s], components as those of spin
 	Columns                   meanSpin;                       // likewise: mean spin of the material, StressUpdate.hpp [rad/s]
+	Column                    spread;                         // likewise, no column of points: sum N (x_i - x_p)^2 along each axis [m2], 0: differs
 	std::vector<std::uint8_t> spinUnknown;                    // points whose W_p has to be found from the velocities; empty: none
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step

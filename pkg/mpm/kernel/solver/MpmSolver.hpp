@@ -40,6 +40,7 @@ public:
 		layGrid();
 		if (!points().spinUnknown.empty()) findRotation(m_d, control, m_rounds);
 		m_rounds = 4;
+		if (rotates(m_d)) noteSpread();
 		lap("points sorted into tiles");
 		switch (control.scheme) {
 			case Scheme::musl: musl(); break;
@@ -76,33 +77,25 @@ public:
 		return crossing;
 	}
 
-	void        pointsChanged() override { m_sorted = m_known = false; }
-	std::size_t gridBytes() const override { return m_d.fields.bytes(); }
-	Analysis    analysis() const override { return m_analysis; }
-	Rotation    rotation(std::size_t p) const override
+	void          pointsChanged() override { m_sorted = m_known = false; }
+	std::size_t   gridBytes() const override { return m_d.fields.bytes(); }
+	Analysis      analysis() const override { return m_analysis; }
+	PointRotation rotation(std::size_t p) const override
 	{
-		Rotation    result;
-		const auto& W = points().angularVelocity;
-		if (W.empty() || p >= W.front().size()) return result;
-		const auto cell = makeGeometry<dim>(m_cellSize, m_walls).cell;
-		double     spread[3] {};
+		if (!rotates(m_d)) return {};
+		// the place in its cell that the grid has, or would have
+		const auto            geometry = makeGeometry<dim>(m_cellSize, m_walls);
+		std::array<double, 3> spread { 0, 0, 0 };
 		for (std::size_t d = 0; d < std::size_t(dim); ++d) {
-			// the place in its cell that the grid has, or would have
-			const auto   geometry = makeGeometry<dim>(m_cellSize, m_walls);
-			const double r = Shape::usesSize ? .5 * points().size[p] / cell[d] : 0, xi = geometry.xi(int(d), points().position[d][p]);
+			const double h = geometry.cell[d], r = Shape::usesSize ? .5 * points().size[p] / h : 0,
+				     xi   = geometry.xi(int(d), points().position[d][p]);
 			const double base = std::floor(xi - Shape::shift(r));
 			double       N[Shape::support], dN[Shape::support];
 			Shape::evaluate(xi, base, r, N, dN);
 			for (int k = 0; k < Shape::support; ++k)
-				spread[d] += N[k] * (base + k - xi) * (base + k - xi) * cell[d] * cell[d];
+				spread[d] += N[k] * (base + k - xi) * (base + k - xi) * h * h;
 		}
-		for (std::size_t k = 0; k < W.size(); ++k) {
-			const std::size_t axis = dim == 3 ? k : 2;
-			const double      J = points().mass[p] * (spread[turnsFrom<dim>(int(k))] + spread[turnsTo<dim>(int(k))]), w = W[k][p];
-			result.momentum[axis] = J * w;
-			result.energy += .5 * J * w * w;
-		}
-		return result;
+		return PointRotation::of(points(), p, spread);
 	}
 	int components() const override { return S::N; }
 
@@ -274,8 +267,15 @@ private:
 		else {
 			for (std::size_t p = 0; p < P.count() && P.energies.started; ++p)
 				P.energies.external += rotation(p).energy, P.energies.kinetic -= rotation(p).energy;
-			P.angularVelocity.clear(), P.meanSpin.clear(), P.spinUnknown.clear();
+			P.angularVelocity.clear(), P.meanSpin.clear(), P.spread.clear(), P.spinUnknown.clear();
 		}
+	}
+	/* For a saved scene, which has no solver when it has been loaded. */
+	void noteSpread()
+	{
+		points().spread.assign(3, 0.);
+		for (std::size_t d = 0; d < std::size_t(dim); ++d)
+			points().spread[d] = Shape::variance * m_d.transfer.geometry.cell[d] * m_d.transfer.geometry.cell[d];
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
 	void updateStress(std::size_t t)

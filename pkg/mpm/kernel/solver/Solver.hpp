@@ -55,6 +55,28 @@ struct GridNodes {
 	Column  mass;
 };
 
+/* Angular momentum that a point carries beside m x x v, J_p W_p [kg m2/s], and its energy J_p W_p^2 / 2 [J]: zero but with the affine
+transfer (Rotation.hpp). */
+struct PointRotation {
+	std::array<double, 3> momentum { 0, 0, 0 };
+	double                energy = 0;
+
+	/* spread: sum N_ip (x_i - x_p)^2 along each axis. */
+	static PointRotation of(const Points& points, std::size_t p, const std::array<double, 3>& spread)
+	{
+		PointRotation     result;
+		const auto&       W     = points.angularVelocity;
+		const std::size_t turns = W.size(); // about x, y, z, or about z alone
+		for (std::size_t k = 0; k < turns && p < W[k].size(); ++k) {
+			const std::size_t axis = turns == 3 ? k : 2;
+			const double      J = points.mass[p] * (spread[(axis + 1) % 3] + spread[(axis + 2) % 3]), w = W[k][p];
+			result.momentum[axis] = J * w;
+			result.energy += .5 * J * w * w;
+		}
+		return result;
+	}
+};
+
 /* Explicit material point method on the points of one scene: momentum on the grid, stress at the points.
 
 The stress update of a step shares a pass over the points with the transfer that begins the next one; finish() carries
@@ -82,13 +104,8 @@ public:
 	/* Bytes held by the grid. */
 	virtual std::size_t gridBytes() const = 0;
 
-	/* Angular momentum that a point carries beside m x x v, J_p W_p [kg m2/s], and its energy J_p W_p^2 / 2 [J]: zero but with the affine
-	transfer. Of points as they stand, after finish(). */
-	struct Rotation {
-		std::array<double, 3> momentum { 0, 0, 0 };
-		double                energy = 0;
-	};
-	virtual Rotation rotation(std::size_t p) const = 0;
+	/* Of a point as it stands, after finish(). */
+	virtual PointRotation rotation(std::size_t p) const = 0;
 
 	virtual Analysis analysis() const   = 0;
 	virtual int      components() const = 0; // of a stress
