@@ -41,7 +41,7 @@ for expected, engine in ((True, {}), (True, dict(shape='quadratic')), (True, dic
 	else: near('%s: no rotation' % engine, found, 0*found, 0)
 grid = spinning()
 O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
-	MpmEngine(cellSize=2*side/10)]
+	MpmEngine(cellSize=2*side/10), NewtonIntegrator()]
 O.run(2, True)
 near('with an InteractionLoop there is none', mpm.array('angularVelocity'), numpy.zeros((100, 3)), 0)
 

@@ -15,8 +15,8 @@ namespace yade::mpm {
 displacement increment. Points of a block that share a law are updated at once, others one by one.
 
 With the affine transfer a point moves with the velocities that strain it, x_p += dt sum N_ip v_i, since only then F and x go on
-agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 32 |s|, with s the mean of w over the
-last ten radians of turning: while the lattice turns over the grid, W_p forgets the part that the grid does not see. The spin of a vibration
+agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 20 |s|, with s the mean of w over the
+last five radians of turning: while the lattice turns over the grid, W_p forgets the part that the grid does not see. The spin of a vibration
 changes its sign within a small angle, so that s stays small and W_p keeps its energy. */
 template <class D> struct StressUpdate {
 	using S                   = typename D::S;
@@ -123,11 +123,11 @@ private:
 		}
 		return inside;
 	}
-	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/10; then W += b (w - W) with b = a/(1 + a), a = 32 dt |s|. */
+	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/5; then W += b (w - W) with b = a/(1 + a), a = 20 dt |s|. */
 	void relaxRotation(std::size_t t, Block block, const WeightLanes<dim, Shape>& w, const Lanes (&G)[gradients<S>])
 	{
 		Points&          P    = points();
-		constexpr double rate = 32, memory = 10; // less rate: a body that spins shakes; less memory: vibrations lose energy; doc/method.md
+		constexpr double rate = 20, memory = 5; // less rate: a body that spins shakes; less memory: vibrations lose energy; doc/method.md
 		const double     perSecond = 1 / control.dt;
 		Lanes            turn[turns<dim>], W[turns<dim>], mean[turns<dim>], part;
 		for (int k = 0; k < turns<dim>; ++k) {
