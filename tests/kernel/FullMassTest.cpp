@@ -106,7 +106,7 @@ TEST(FullMassTest, BarOfOrderFour)
 	EXPECT_LT(small[2], 4.6e-8) << "5.64e-6 with the lumped mass";
 	EXPECT_LT(large[2], 3.8e-5) << "2.89e-3 with the lumped mass";
 }
-TEST(FullMassTest, PlaneAndSpaceOfOrderFour)
+TEST(LongFullMassTest, PlaneAndSpaceOfOrderFour)
 {
 	for (Analysis analysis : { Analysis::planeStress, Analysis::planeStrain, Analysis::solid })
 		for (double amplitude : { 1e-4, .05 }) {

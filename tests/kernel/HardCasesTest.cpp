@@ -54,7 +54,7 @@ TEST(HardCasesTest, ImpactAtHalfTheWaveSpeed)
 
 /* A point that shares no node with another moves as a mass point does; also where it lies on nodes, or as near as rounding lets it, and
 goes along them, while something of 10,000 times its mass is elsewhere. */
-TEST(HardCasesTest, ASinglePointAlone)
+TEST(LongHardCasesTest, ASinglePointAlone)
 {
 	for (Analysis analysis : allAnalyses)
 		for (ShapeKind shape : allShapes)

@@ -18,7 +18,7 @@ if len(sys.argv) > 1:
 		material=BoucWenMat(young=1e6, poisson=.3, density=1000, yieldStress=2e4, tangentRatio=.05, n=10), ompThreads=int(sys.argv[1]),
 		walls=[MpmWall(normal=(0, 1, 0), kind='friction', friction=.2, origin=(0, -.02, 0)), MpmWall(normal=(-1, 0, 0), kind='fixed', origin=(2, 0, 0))])
 	mpm.fill(((1.5, 0), (1.9, .06)), spacing=1/50., thickness=.1, material=0, bodies=False)
-	mpm.fill(((1.5, .2), (1.7, .4)), spacing=1/50., thickness=.1, material=0, velocity=(-20, 0, 0))
+	mpm.fill(((1.5, .2), (1.7, .4)), spacing=1/50., thickness=.1, material=0, velocity=(-10, 0, 0))
 	O.dt = .4*mpm.criticalTimeStep()
 	O.run(200, True)
 	numpy.savez(sys.argv[2], threads=O.numThreads, forces=[list(w.force) for w in grid.walls], iter=O.iter, **state())
