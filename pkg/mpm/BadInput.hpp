@@ -21,5 +21,7 @@ void require(bool good, const Object& object, const Attribute& attribute, const 
 {
 	if (!good) refuse(object, attribute, value, remedy);
 }
+/* The one form of complaint about a saved scene; fault names object and attribute. */
+[[noreturn]] inline void refuseDamaged(const std::string& fault) { throw std::runtime_error(fault + ": the saved scene is damaged; load another copy of it"); }
 
 } // namespace yade

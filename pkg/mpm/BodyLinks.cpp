@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "BodyLinks.hpp"
 #include "BadInput.hpp"
+#include "EngineOrder.hpp"
 #include "MpmState.hpp"
 #include <algorithm>
 #include <core/BodyContainer.hpp>
@@ -99,15 +100,14 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 	if (offPlane != 0 || refused) refuseStates(scene, points, dim);
 }
 
-/* Complains of what YADE lets one do to a body, and a material point cannot follow. */
+/* Refuses a property that YADE admits for a body and a material point cannot have. */
 void BodyLinks::refuseBody(Scene& scene, const Body& body) const
 {
 	const std::string name = "O.bodies[" + std::to_string(body.id) + "]";
 	require(body.clumpId == Body::ID_NONE, name, "clumpId", body.clumpId,
 		"a material point cannot be a member of a clump, which moves as a rigid body; dissolve the clump with O.bodies.erase("
 			+ std::to_string(body.clumpId) + "), which keeps its members, and make rigid parts of grains");
-	require(body.subdomain == MpmState::subdomainOfPoints, name, "subdomain", body.subdomain,
-		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
+	require(body.subdomain == MpmState::subdomainOfPoints, name, "subdomain", body.subdomain, EngineOrder::oneProcess);
 	require(body.state->densityScaling == unscaled, name + ".state", "densityScaling", body.state->densityScaling,
 		"the mass of material points is not scaled; set NewtonIntegrator.densityScaling = False and this to -1");
 	refuse("O.forces", "t(" + std::to_string(body.id) + ")", scene.forces.getTorque(body.id).transpose(),
@@ -139,8 +139,7 @@ void BodyLinks::refuseStates(Scene& scene, const mpm::Points& points, int dim) c
 		const bool        halved   = material && material->poisson == 0 && !m_links[std::size_t(id)].body->intrs.empty();
 		require(force.allFinite(), "O.forces", "f(" + std::to_string(id) + ")", force.transpose(),
 			halved ? "in a contact of two materials with poisson = 0 YADE divides zero by zero for the tangential stiffness; give one of them a "
-				 "small "
-				 "poisson, e.g. 1e-3"
+				 "small poisson, e.g. 1e-3"
 			       : "look at the engine, contact or script that applies it");
 		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");
 		require(state->pos.allFinite(), body, "pos", state->pos.transpose(), "give a finite position [m]");
@@ -186,7 +185,7 @@ void BodyLinks::write(Scene& scene, const mpm::Points& points) const
 		}
 		for (std::size_t k = 0, turns = points.spin.size(); k < turns && touched; ++k)
 			state.angVel[turns == 3 ? int(k) : 2] = points.spin[k][p];
-		// only NewtonIntegrator tells the collider of bodies that outrun their bounds, and it does not see these
+		// NewtonIntegrator asks for the collider where bodies outrun their bounds, but skips points
 		if (const Bound* bound = link.body->bound.get()) outrun |= (state.pos - bound->refPos).squaredNorm() > bound->sweepLength * bound->sweepLength;
 	}
 	if (outrun) scene.doSort = true;

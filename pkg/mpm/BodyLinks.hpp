@@ -6,8 +6,8 @@
 
 namespace yade {
 
-/* The bodies of the material points, as scripts and other engines see them. read() fetches before a step what they have changed,
-write() shows after it what the step has done. Owns no body: Python may have made parts of one, and then the last reference must
+/* The bodies of the material points, as scripts and other engines see them. read() takes their changes before a step, write()
+stores the new positions and velocities in the bodies after it. Owns no body: Python may have made parts of one, and then the last reference must
 not be dropped by the thread of the simulation, which does not hold Python's lock. */
 class BodyLinks {
 public:

@@ -30,9 +30,7 @@ void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const En
 	// every process of yade.mpy has this engine: all refuse the same step, as one that went on would wait for the others for ever
 	for (const auto& engine : engines)
 		if (engine->label == "isendRecvForcesRunner" && !engine->dead)
-			throw std::runtime_error(
-				"O.engines has isendRecvForcesRunner, because yade.mpy has split the scene: material points do not work in it; run "
-				"the scene in one process, with threads (-j)");
+			throw std::runtime_error(std::string("O.engines has isendRecvForcesRunner: ") + oneProcess);
 	m_checked.clear();     // a bad order is complained of each time
 	if (here == n) return; // asked for its time step outside O.engines
 	for (const auto& engine : engines)

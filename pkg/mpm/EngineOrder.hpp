@@ -10,6 +10,10 @@ namespace yade {
 engines that move bodies must use one time step. */
 class EngineOrder {
 public:
+	/* Why and with which remedy a scene on several processes is refused, wherever it shows. */
+	static constexpr const char* oneProcess =
+		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)";
+
 	/* Checks the order around self, again only after the list has changed; throws if forces would be lost. */
 	void check(const std::vector<shared_ptr<Engine>>& engines, const Engine& self);
 	/* Whether a TimeStepper sets O.dt as well; setsStep: MpmEngine does. Throws if MpmEngine and NewtonIntegrator would move points and

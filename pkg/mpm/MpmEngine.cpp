@@ -125,10 +125,8 @@ MpmEngine::Attached MpmEngine::attach()
 
 void MpmEngine::postLoad(MpmEngine&)
 {
-	std::string fault;
 	if (!(untilLook >= 0 && untilLook <= lookInterval && lookInterval <= longestLookInterval))
-		fault = "untilLook = " + std::to_string(untilLook) + " with lookInterval = " + std::to_string(lookInterval) + " cannot be";
-	if (!fault.empty()) throw std::runtime_error("MpmEngine." + fault + ": the saved scene is damaged; load another copy of it");
+		refuseDamaged("MpmEngine.untilLook = " + std::to_string(untilLook) + " with lookInterval = " + std::to_string(lookInterval) + " cannot be");
 }
 
 // ---- what the scene says ------------------------------------------------------------------------------------------------
@@ -161,8 +159,7 @@ mpm::StepControl MpmEngine::prepare()
 	const int     most   = std::max(fewest, 4 * omp_get_num_procs());
 	require(ompThreads <= most, self, "ompThreads", ompThreads,
 		"give at most " + std::to_string(most) + " threads, one a core of the processor is best; -1 takes the number of -j");
-	require(scene->subdomain == 0, "O", "subdomain", scene->subdomain,
-		"material points do not work in a scene that yade.mpy has split; run the scene in one process, with threads (-j)");
+	require(scene->subdomain == 0, "O", "subdomain", scene->subdomain, EngineOrder::oneProcess);
 
 	m_order.check(scene->engines, *this);
 	checkKinematics(analysisKind);

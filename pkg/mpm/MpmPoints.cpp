@@ -230,14 +230,14 @@ void MpmPoints::postLoad(MpmPoints&)
 		fault = "forcedBodies has " + std::to_string(forcedBodies.size()) + " entries for " + std::to_string(permanentForces.size()) + " forces and "
 			+ std::to_string(permanentTorques.size()) + " torques";
 	if (fault.empty() && std::any_of(forcedBodies.begin(), forcedBodies.end(), [](int id) { return id < 0; })) fault = "forcedBodies has a negative id";
-	if (!fault.empty()) throw std::runtime_error("MpmPoints." + fault + ": the saved scene is damaged; load another copy of it");
+	if (!fault.empty()) refuseDamaged("MpmPoints." + fault);
 	runtime.forcesDue = true;
 	try {
 		updateLaws();
 	} catch (const std::runtime_error&) {
 		runtime.laws.clear(); // the engine complains about a bad material before its next step
 	}
-	runtime.layoutsDue = true; // the scene's bodies, which tell whether a material is in use, are not there yet
+	runtime.layoutsDue = true; // needs the scene's bodies, which are loaded later
 }
 
 /* A scene that a failed step has stopped must still be saveable: what fails here has failed in the run as well. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "BadInput.hpp"
 #include "MpmTraction.hpp"
 #include "SavedBy.hpp"
 #include "kernel/Continuity.hpp"
@@ -15,15 +16,16 @@
 #include <mutex>
 
 namespace boost::serialization {
-/* A damaged count may ask for more memory than there is. */
+/* Refuses a damaged count that exceeds the memory. */
 template <class Work> void refuseHugeCounts(const char* object, Work&& work)
 {
+	const std::string fault = std::string(object) + " has a column too long for the memory";
 	try {
 		work();
 	} catch (const std::bad_alloc&) {
-		throw std::runtime_error(std::string(object) + " has a column too long for the memory: the saved scene is damaged; load another copy of it");
+		yade::refuseDamaged(fault);
 	} catch (const std::length_error&) {
-		throw std::runtime_error(std::string(object) + " has a column too long for the memory: the saved scene is damaged; load another copy of it");
+		yade::refuseDamaged(fault);
 	}
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e, const unsigned int)
@@ -85,7 +87,7 @@ public:
 	/* Those of the scene, or an empty pointer. */
 	static shared_ptr<MpmPoints> of(const Scene& scene);
 	/* For py/mpm: those of the scene in hand, new ones if it has none. Python must not append them to O.miscParams: YADE's conversion of a
-	list never lets go of its items, and every scene would stay in memory after O.reset(). */
+	list leaks a reference to each item, and every scene would stay in memory after O.reset(). */
 	static shared_ptr<MpmPoints> ofScene();
 
 	std::size_t count() const { return points.count(); }
@@ -171,7 +173,7 @@ public:
 		((std::vector<shared_ptr<MpmTraction>>, tractions, , Attr::hidden, "Loads on faces"))
 		((std::vector<shared_ptr<Material>>, materials, , Attr::hidden, "Materials that points have; a point holds an index into them"))
 		((std::vector<Real>, densities, , Attr::hidden, "Of each material, when its points were last given their masses [kg/m3]"))
-		((mpm::Continuity, continuity, , Attr::hidden, "What the check for gaps knows of neighbours"))
+		((mpm::Continuity, continuity, , Attr::hidden, "Neighbours of the points, for the check for gaps"))
 		((bool, large, true, Attr::hidden, "Whether the deformation gradient was integrated for large strain"))
 		((bool, filled, true, Attr::hidden, "Whether points have been added since the engine last looked at all of them"))
 		((int, nextBodyless, -1, Attr::hidden, "Id of the next point without a body"))

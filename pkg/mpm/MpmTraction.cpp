@@ -50,7 +50,7 @@ void MpmTraction::load(std::size_t number, mpm::Analysis analysis, Real time)
 void MpmTraction::postLoad(MpmTraction&)
 {
 	const std::string fault = mpm::faultOf(face);
-	if (!fault.empty()) throw std::runtime_error("MpmTraction." + fault + ": the saved scene is damaged; load another copy of it");
+	if (!fault.empty()) refuseDamaged("MpmTraction." + fault);
 }
 
 Vector3r MpmTraction::force() const { return { face.resultant[0], face.resultant[1], face.resultant[2] }; }

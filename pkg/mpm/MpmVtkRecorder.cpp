@@ -114,9 +114,8 @@ void MpmVtkRecorder::record()
 void MpmVtkRecorder::postLoad(MpmVtkRecorder&)
 {
 	if (times.size() == files.size() && gridTimes.size() == gridFiles.size()) return;
-	throw std::runtime_error(std::string(self) + ".times has " + std::to_string(times.size()) + " entries for " + std::to_string(files.size())
-				 + " files, and gridTimes " + std::to_string(gridTimes.size()) + " for " + std::to_string(gridFiles.size())
-				 + ": the saved scene is damaged; load another copy of it");
+	refuseDamaged(std::string(self) + ".times has " + std::to_string(times.size()) + " entries for " + std::to_string(files.size())
+		      + " files, and gridTimes " + std::to_string(gridTimes.size()) + " for " + std::to_string(gridFiles.size()));
 }
 
 /* Name of this step's file. */

@@ -88,12 +88,6 @@ Continuity::Gap Continuity::widest(const Points& points, const std::vector<Law>&
 	return gap;
 }
 
-const std::pair<int, Continuity::Slot>* Continuity::slotOf(int id) const
-{
-	const auto found = std::lower_bound(m_slots.begin(), m_slots.end(), std::make_pair(id, Slot(0)));
-	return found != m_slots.end() && found->first == id ? &*found : nullptr;
-}
-
 /* Finds the points' places; false where nothing is known, or there is a point that has not been seen before. */
 bool Continuity::locate(const Points& points)
 {
@@ -109,8 +103,8 @@ bool Continuity::locate(const Points& points)
 	m_generation = points.generation, m_count = points.count();
 	m_place.assign(n, nowhere);
 	for (std::size_t p = 0; p < points.count(); ++p) {
-		const auto* slot = slotOf(points.id[p]);
-		if (!slot) return false;
+		const auto slot = std::lower_bound(m_slots.begin(), m_slots.end(), std::make_pair(points.id[p], Slot(0)));
+		if (slot == m_slots.end() || slot->first != points.id[p]) return false;
 		m_place[slot->second] = p;
 	}
 	return true;

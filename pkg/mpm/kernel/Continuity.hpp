@@ -55,10 +55,9 @@ private:
 	std::vector<std::size_t>          m_place;                       // of each slot, in the arrays as they stand, or nowhere
 	std::size_t                       m_generation = 0, m_count = 0; // of the points that m_place is good for
 
-	const std::pair<int, Slot>* slotOf(int id) const;
-	bool                        locate(const Points& points);
-	void                        findNeighbours(const Points& points, const std::vector<Law>& laws);
-	void                        findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
+	bool locate(const Points& points);
+	void findNeighbours(const Points& points, const std::vector<Law>& laws);
+	void findFootings(const Points& points, const std::vector<Law>& laws, const std::vector<Wall>& walls);
 };
 
 } // namespace yade::mpm

@@ -28,24 +28,10 @@ bool pluginFitsRunningYade();
 } // namespace yade
 
 #ifndef YADE_DECLARED_VERSION
-/* With YADE's own headers: their YADE_PLUGIN, used after this file, would register the classes in any case. As in pkg/yade,
-these are registered in a YADE that they fit. */
-#	include <boost/preprocessor/seq/for_each.hpp>
-#	include <boost/preprocessor/stringize.hpp>
+/* With YADE's own headers: their YADE_PLUGIN, used after this file, would register the classes in any case. */
 #	include <lib/factory/ClassFactory.hpp>
 #	undef YADE_PLUGIN
-#	define YADE_PLUGIN_DETAIL_NAME(r, data, cls) BOOST_PP_STRINGIZE(cls),
-#	define YADE_PLUGIN_DETAIL_EXPORT(r, data, cls) BOOST_CLASS_EXPORT_IMPLEMENT(yade::cls)
-#	define YADE_PLUGIN(classes)                                                                                                                           \
-		namespace {                                                                                                                                    \
-			__attribute__((constructor)) void registerClassesOfThisFile()                                                                          \
-			{                                                                                                                                      \
-				if (!pluginFitsRunningYade()) return;                                                                                          \
-				const char* fileAndClasses[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_NAME, ~, classes) nullptr };               \
-				Singleton<ClassFactory>::instance().registerPluginClasses(fileAndClasses);                                                     \
-			}                                                                                                                                      \
-		}                                                                                                                                              \
-		}                                                                                                                                              \
-		BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_EXPORT, ~, classes)                                                                                   \
-		namespace yade {
+#	define YADE_PLUGIN_DETAIL_FACTORY(r, data, cls)
+#	define YADE_PLUGIN_DETAIL_PYTHON(r, data, cls)
+#	include "PluginClasses.hpp"
 #endif

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
-#include <boost/preprocessor/seq/for_each.hpp>
-#include <boost/preprocessor/stringize.hpp>
 #include <boost/serialization/export.hpp>
 #include <lib/base/Singleton.hpp>
 #include <lib/factory/Factorable.hpp>
@@ -35,25 +33,7 @@ template <class T> void registerPluginClass(const char* name)
 
 } // namespace yade
 
-#define YADE_PLUGIN_DETAIL_NAME(r, data, cls) BOOST_PP_STRINGIZE(cls),
 #define YADE_PLUGIN_DETAIL_FACTORY(r, data, cls) registerPluginClass<cls>(BOOST_PP_STRINGIZE(cls));
 #define YADE_PLUGIN_DETAIL_PYTHON(r, data, cls)                                                                                                                \
 	void cls::pyRegisterClass(::boost::python::object scope) { registerInPython<cls>(scope); }
-#define YADE_PLUGIN_DETAIL_EXPORT(r, data, cls) BOOST_CLASS_EXPORT_IMPLEMENT(yade::cls)
-
-/* YADE_PLUGIN((ClassA)(ClassB)) stands inside namespace yade of one source file, after the classes' definitions. It leaves
-the namespace for a moment because Boost's export macros open namespace boost. */
-#define YADE_PLUGIN(classes)                                                                                                                                   \
-	namespace {                                                                                                                                            \
-		__attribute__((constructor)) void registerClassesOfThisFile()                                                                                  \
-		{                                                                                                                                              \
-			if (!pluginFitsRunningYade()) return;                                                                                                  \
-			const char* fileAndClasses[] = { __FILE__, BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_NAME, ~, classes) nullptr };                       \
-			Singleton<ClassFactory>::instance().registerPluginClasses(fileAndClasses);                                                             \
-			BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_FACTORY, ~, classes)                                                                          \
-		}                                                                                                                                              \
-	}                                                                                                                                                      \
-	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_PYTHON, ~, classes)                                                                                           \
-	}                                                                                                                                                      \
-	BOOST_PP_SEQ_FOR_EACH(YADE_PLUGIN_DETAIL_EXPORT, ~, classes)                                                                                           \
-	namespace yade {
+#include "../../load/PluginClasses.hpp"
