@@ -144,7 +144,7 @@ void BodyLinks::refuseStates(Scene& scene, const mpm::Points& points, int dim) c
 		require(state->vel.allFinite(), body, "vel", state->vel.transpose(), "give a finite velocity [m/s]");
 		require(state->pos.allFinite(), body, "pos", state->pos.transpose(), "give a finite position [m]");
 		require(dim == 3 || (state->pos[2] == 0 && state->vel[2] == 0), body, "pos, vel", state->pos[2],
-			"in a plane analysis points lie at z = 0 and stay there");
+			"in a plane analysis points lie at z = 0 and stay there; set z and the velocity along it to 0, or choose analysis = '3d'");
 	}
 	throw std::logic_error("MpmEngine: a point's force, position or velocity is not finite, and none was found");
 }

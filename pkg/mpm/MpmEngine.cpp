@@ -293,11 +293,12 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 				"a plane analysis needs points with a thickness: mpm.fill(..., thickness=...) [m]; points without one (0) are of a solid: set "
 				"MpmEngine.analysis = '3d'; < 0 are rings: 'axisymmetric'");
 		else
-			require(points.thickness[p] == 0, name, "thickness", points.thickness[p], "a 3d analysis needs points filled without thickness");
+			require(points.thickness[p] == 0, name, "thickness", points.thickness[p],
+				"points of a 3d analysis have no thickness; fill them with thickness=None, or choose a plane analysis");
 		if (dim == 2)
 			require(points.position[2][p] == 0 && points.velocity[2][p] == 0, name, "position[2], velocity[2]",
 				mpm::number(points.position[2][p]) + ", " + mpm::number(points.velocity[2][p]),
-				"in a plane analysis points lie at z = 0 and stay there");
+				"in a plane analysis points lie at z = 0 and stay there; set z and the velocity along it to 0, or choose analysis = '3d'");
 	}
 }
 

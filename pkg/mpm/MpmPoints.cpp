@@ -18,8 +18,9 @@ namespace yade {
 namespace py = ::boost::python;
 
 namespace {
-	const char* const incompatible = "': its law keeps other internal variables than the points carry (plastic strain, back stress); give points a law of "
-					 "the same kind and options, or make new points";
+	const char* const incompatible = "': its law keeps other internal variables than the points carry (plastic strain, back stress; reloading, "
+					 "strengthDegradation, stiffnessDegradation, pinching and loadingRule of a BoucWenMat add to them); give points a "
+					 "law of the same kind and options, or make new points";
 }
 
 shared_ptr<MpmPoints> MpmPoints::of(const Scene& scene)

@@ -23,8 +23,8 @@ def color(quantity='vonMises', limits=None, colormap='viridis'):
 	"""
 	import matplotlib
 	try: values = array(quantity) if isinstance(quantity, str) else numpy.asarray(quantity, dtype=float)
-	except (TypeError, ValueError):
-		if isinstance(quantity, str): raise
+	except (TypeError, ValueError) as fault:
+		if isinstance(quantity, str): raise ValueError('mpm.color: quantity = %r: %s' % (quantity, fault)) from None
 		raise ValueError('mpm.color: quantity = %r: give the name of a quantity of mpm.array, or one number a point' % (quantity,)) from None
 	ids = array('id')
 	if values.shape != ids.shape:

@@ -49,6 +49,22 @@ void expectSays(const std::string& text, std::initializer_list<const char*> word
 		EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is missing in: " << text;
 }
 
+/* As in a scene that was saved before a step that cannot be made: its first step looks for the stable step and finds the fault there. */
+TEST(FailureTest, TheSearchForTheStableStepKnowsTheTime)
+{
+	Scene s = block();
+	s.start(Analysis::planeStrain, ShapeKind::cubic, .25);
+	s.points.position[0][5] = -1; // behind the wall
+	s.solver->pointsChanged();
+	s.control.time = 2.5;
+	try {
+		s.solver->criticalTimeStep(s.control);
+		FAIL() << "a point behind a wall was accepted";
+	} catch (const StepFailure& fault) {
+		expectSays(fault.what(), { "has left the walls", "at time 2.5 s" });
+	}
+}
+
 TEST(FailureTest, NonFiniteVelocityFromOutside)
 {
 	for (Scheme scheme : allSchemes)

@@ -131,7 +131,7 @@ refused('thinning in plane strain', 'MpmEngine.thinning', 'thinning = False', an
 refused('mean dilatation in plane stress', 'MpmEngine.meanDilatation', 'meanDilatation = False', meanDilatation=True, fit=good(meanDilatation=False))
 refused('thinning in small strain', 'MpmEngine.thinning', 'thinning = False', largeStrain=False, thinning=True, fit=good(thinning=False))
 refused('GIMP in cells smaller than the points', 'MpmEngine.cellSize = 0.2', 'GIMP', shape='gimp', cellSize=.2, fit=good(cellSize=.25))
-refused('3d analysis of points with a thickness', 'material point 0.thickness = 0.1', 'without thickness', analysis='3d', fit=good(analysis='planeStress'))
+refused('3d analysis of points with a thickness', 'material point 0.thickness = 0.1', 'thickness=None', analysis='3d', fit=good(analysis='planeStress'))
 for analysis in 'planeStress', 'planeStrain':
 	refused('%s of points without a thickness' % analysis, 'material point 0.thickness = 0', 'mpm.fill(..., thickness=...)', region=((0, 0, 0), (1, 1, .5)), thickness=None, analysis=analysis,
 		fit=good(analysis='3d'))

@@ -58,6 +58,19 @@ for shape, scheme, damping, tolerance, more in (('cubic', 'MUSL', 0, 1e-3, {}), 
 	volume0 = mpm.array('volume')/numpy.linalg.det(mpm.array('F'))
 	near(what + 'heat of the points is that of the scene', (mpm.array('dissipation')*volume0).sum()/e['mpmDissipation'], 1, .02)
 
+# ---- a stiffness that changes in mid-run keeps the stress; energies are sums of increments, and stay a balance ------------
+for law, factor in (lambda: FrictMat(label='soil', young=1e6, poisson=.3, density=1000), 3), (lambda: steel(), .4):
+	ids, grid = block(region=((0, 0), (1, 1)), spacing=.0625, material=law(), gravity=(0, -10, 0), courant=.1, walls=[MpmWall(normal=(0, 1, 0), kind='fixed')])
+	O.trackEnergy = True
+	O.run(int(.05/O.dt), True)
+	elastic, work = O.energy['mpmElastic'], -O.energy['mpmExternal']
+	check('young x %g: the block has sunk' % factor, work > 5 and elastic > .1*work, (elastic, work))
+	O.materials[0].young *= factor
+	O.run(1, True)
+	near('young x %g: the step after it stores as much' % factor, (O.energy['mpmElastic'] - elastic)/work, 0, .05)
+	O.run(200, True)
+	near('young x %g: balance over the work of gravity' % factor, O.energy.total()/work, 0, 1e-3)
+
 # ---- PIC dissipates, and the balance says how much ---------------------------------------------------------------------
 ids, grid = block(spacing=.0625, flip=.95, courant=.1, walls=[MpmWall(normal=(1, 0, 0), kind='fixed')])
 O.trackEnergy = True

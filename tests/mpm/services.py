@@ -177,6 +177,7 @@ near('the ends of the map', [O.bodies[ids[0]].shape.color, O.bodies[ids[-1]].sha
 equal('a grain keeps its colour', O.bodies[16].shape.color, Vector3(1, 0, 0))
 equal('limits given', mpm.color('vonMises', limits=(0, 1e6)), (0., 1e6))
 raises('not one number a point', ValueError, 'give one number a point', lambda: mpm.color('stress'))
+raises('no such quantity', ValueError, "mpm.color: quantity = 'xyz'", lambda: mpm.color('xyz'))
 raises('no such map', ValueError, 'give one that it has', lambda: mpm.color(colormap='rainbows'))
 
 # a batch, two lines of its table
