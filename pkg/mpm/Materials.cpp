@@ -65,6 +65,16 @@ namespace {
 		return law;
 	}
 
+	mpm::MohrCoulomb modelOf(const MohrCoulombMat& m, const std::string&)
+	{
+		mpm::MohrCoulomb law;
+		law.cohesion         = m.cohesion;
+		law.internalFriction = m.internalFriction;
+		law.dilatancy        = m.dilatancy;
+		law.tensionCutoff    = m.tensionCutoff;
+		return law;
+	}
+
 	/* Class, and label or place in O.materials where it has one. */
 	std::string nameOf(const Material& material)
 	{
@@ -78,9 +88,9 @@ mpm::Law lawOf(const Material& material)
 	const std::string name    = nameOf(material);
 	const auto*       elastic = dynamic_cast<const ElastMat*>(&material);
 	if (!elastic)
-		throw std::runtime_error(
-			name
-			+ " has no law for material points: give them an ElastMat, a FrictMat (linear elastic), a BoucWenMat, a J2Mat or a DruckerPragerMat");
+		throw std::runtime_error(name
+					 + " has no law for material points: give them an ElastMat, a FrictMat (linear elastic), a BoucWenMat, a J2Mat, a "
+					   "DruckerPragerMat or a MohrCoulombMat");
 
 	mpm::Law law;
 	require(elastic->density > 0 && std::isfinite(elastic->density), name, "density", elastic->density, "give a density > 0 [kg/m3]");
@@ -92,6 +102,8 @@ mpm::Law lawOf(const Material& material)
 		law.model = modelOf(*j2, name);
 	else if (const auto* cone = dynamic_cast<const DruckerPragerMat*>(&material))
 		law.model = modelOf(*cone, name);
+	else if (const auto* pyramid = dynamic_cast<const MohrCoulombMat*>(&material))
+		law.model = modelOf(*pyramid, name);
 	if (const std::string fault = mpm::validate(law); !fault.empty()) throw std::runtime_error(name + "." + fault);
 	return law;
 }

@@ -75,6 +75,24 @@ public:
 };
 REGISTER_SERIALIZABLE(DruckerPragerMat);
 
+class MohrCoulombMat : public FrictMat {
+public:
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(MohrCoulombMat, FrictMat, "Perfectly plastic Mohr-Coulomb material with dilatancy and tension cut-off. The yield surface (1 + sin phi) s1 - (1 - sin phi) s3 = 2 c cos phi of the principal stresses s1 >= s2 >= s3, tension positive, is exact in every analysis, on its edges and at its apex. Stress returns along the flow of the active planes, in closed form (doc/law.md). Used by MpmEngine and mpm.drive; in contacts it is a FrictMat, whose frictionAngle is that of contacts and independent of internalFriction. Source: de Souza Neto, Peric and Owen, Computational Methods for Plasticity (2008), chapter 8.",
+		((Real, cohesion, 0, , "Cohesion c >= 0 [Pa]. Cohesion and internalFriction must not both be 0, their defaults."))
+		((Real, internalFriction, 0, , "Angle of internal friction phi, from 0 to below 1.57 [rad]. 0 is Tresca's material."))
+		((Real, dilatancy, 0, , "Angle of dilatancy psi, from 0 to internalFriction [rad]. The flow of a face is (1 + sin psi, 0, sin psi - 1) in principal strains."))
+		((Real, tensionCutoff, std::numeric_limits<Real>::infinity(), , "Greatest principal stress, from 0 to the apex cohesion/tan(internalFriction) [Pa]. float('inf'), the default, is no cut-off: tension ends at the apex."))
+		,
+		createIndex();
+		,
+		.def(AsWritten())
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(MohrCoulombMat, FrictMat);
+};
+REGISTER_SERIALIZABLE(MohrCoulombMat);
+
 /* The kernel's form of a material of the scene. Throws, naming material, attribute, value and remedy, where the material
 has no law or its parameters are not admissible. */
 mpm::Law lawOf(const Material& material);

@@ -11,5 +11,5 @@
 #endif
 
 namespace yade {
-YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MpmWall)(MpmTraction)(MpmEngine)(MpmVtkRecorder));
+YADE_PLUGIN((MpmPoints)(MpmState)(BoucWenMat)(J2Mat)(DruckerPragerMat)(MohrCoulombMat)(MpmWall)(MpmTraction)(MpmEngine)(MpmVtkRecorder));
 } // namespace yade

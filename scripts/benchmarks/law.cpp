@@ -48,6 +48,12 @@ Law druckerPrager()
 	model.cohesion = yieldStress / 2, model.internalFriction = .5, model.dilatancy = .2;
 	return lawOf(model);
 }
+Law mohrCoulomb()
+{
+	MohrCoulomb model;
+	model.cohesion = yieldStress / 2, model.internalFriction = .5, model.dilatancy = .2;
+	return lawOf(model);
+}
 template <class Change> Law changed(Law law, Change&& change)
 {
 	change(law);
@@ -69,6 +75,8 @@ const struct {
 	{ "J2", j2() },
 	{ "J2,isotropic", changed(j2(), [](Law& law) { as<J2>(law).isotropic.modulus= .02 * young; }) },
 	{ "Drucker-Prager", druckerPrager() },
+	{ "Mohr-Coulomb", mohrCoulomb() },
+	{ "Mohr-Coulomb,cutoff", changed(mohrCoulomb(), [](Law& law) { as<MohrCoulomb>(law).tensionCutoff= yieldStress / 3; }) },
 };
 
 class Cloud {

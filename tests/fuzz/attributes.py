@@ -40,7 +40,8 @@ def scene(material, analysis='planeStress', **how):
 
 
 materials = dict(boucWen=lambda: BoucWenMat(young=1e6, poisson=.3, density=1000, yieldStress=1e4, n=3, tangentRatio=.05, label='m'), j2=lambda: J2Mat(young=1e6, poisson=.3, density=1000, yieldStress=1e4, label='m'),
-	cone=lambda: DruckerPragerMat(young=1e6, poisson=.3, density=1000, internalFriction=.5, cohesion=1e3, label='m'), elastic=lambda: FrictMat(young=1e6, poisson=.3, density=1000, label='m'))
+	cone=lambda: DruckerPragerMat(young=1e6, poisson=.3, density=1000, internalFriction=.5, cohesion=1e3, label='m'), pyramid=lambda: MohrCoulombMat(young=1e6, poisson=.3, density=1000, internalFriction=.5, cohesion=1e3, tensionCutoff=500, label='m'),
+	elastic=lambda: FrictMat(young=1e6, poisson=.3, density=1000, label='m'))
 yade_own = {'label', 'id', 'dict', 'dead', 'initRun', 'realPeriod', 'virtPeriod', 'iterPeriod', 'nDo', 'nDone', 'firstIterRun', 'virtLast', 'realLast', 'iterLast', 'frictionAngle'}  # YADE's, which takes anything
 
 

@@ -26,11 +26,12 @@ names = 'id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'bac
 def material(random, label):
 	young = 10**random.uniform(5, 7)
 	common = dict(label=label, young=young, poisson=random.choice([0, .2, .3, .45]), density=10**random.uniform(2.7, 3.5), frictionAngle=.5)
-	kind = random.choice(['elastic', 'elastic', 'boucWen', 'j2', 'cone'])
+	kind = random.choice(['elastic', 'elastic', 'boucWen', 'j2', 'cone', 'pyramid'])
 	if kind == 'boucWen': return BoucWenMat(yieldStress=young*random.choice([.01, .1]), n=random.choice([2, 3.5, 10]), tangentRatio=random.choice([0, .05]),
 		saturationStress=random.choice([0, .001*young]), saturationRate=5, **common)
 	if kind == 'j2': return J2Mat(yieldStress=young*random.choice([.01, .1]), tangentRatio=random.choice([0, .05]), isotropicModulus=random.choice([0, .01*young]), **common)
 	if kind == 'cone': return DruckerPragerMat(cohesion=young*random.choice([0, .01]), internalFriction=.5, dilatancy=random.choice([0, .2]), **common)
+	if kind == 'pyramid': return MohrCoulombMat(cohesion=young*.01, internalFriction=.5, dilatancy=random.choice([0, .2]), tensionCutoff=random.choice([0, .005*young, float('inf')]), **common)
 	return FrictMat(**common)
 
 

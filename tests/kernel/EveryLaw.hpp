@@ -35,6 +35,15 @@ inline std::vector<NamedLaw> everyLaw()
 	Law smooth                                 = soil; // no apex, no dilatancy
 	as<DruckerPrager>(smooth).internalFriction = as<DruckerPrager>(smooth).dilatancy = 0;
 
+	Law corners                               = elastic; // with every plane, edge and corner
+	corners.model                             = MohrCoulomb();
+	as<MohrCoulomb>(corners).cohesion         = .3 * yieldStress;
+	as<MohrCoulomb>(corners).internalFriction = .5, as<MohrCoulomb>(corners).dilatancy = .2;
+	Law opening = corners, tresca = corners, brittle = corners;
+	as<MohrCoulomb>(opening).tensionCutoff   = .2 * yieldStress;
+	as<MohrCoulomb>(brittle).tensionCutoff   = 0;
+	as<MohrCoulomb>(tresca).internalFriction = as<MohrCoulomb>(tresca).dilatancy = 0;
+
 	return {
 		{ "elastic", elastic },
 		{ "J2", j2Law(0) },
@@ -43,6 +52,10 @@ inline std::vector<NamedLaw> everyLaw()
 		{ "J2, saturation", saturates },
 		{ "Drucker-Prager", soil },
 		{ "Drucker-Prager without friction", smooth },
+		{ "Mohr-Coulomb", corners },
+		{ "Mohr-Coulomb with tension cut-off", opening },
+		{ "Mohr-Coulomb without tension", brittle },
+		{ "Mohr-Coulomb without friction", tresca },
 		{ "n = 0.6", boucWenLaw(.6, .05, 1e-4) },
 		{ "n = 2", boucWenLaw(2, 0, 1e-4) },
 		{ "n = 2.5", boucWenLaw(2.5, .05, 1e-4) },

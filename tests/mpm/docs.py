@@ -34,7 +34,7 @@ equal('defaults of BoucWenMat', {k: d[k] for k in ('beta', 'gamma', 'tangentRati
 equal('defaults of MpmWall', {k: v for k, v in MpmWall().dict().items() if k in ('kind', 'friction', 'velocity', 'force')}, {'kind': 'fixed', 'friction': 0., 'velocity': Vector3(0, 0, 0), 'force': Vector3(0, 0, 0)})
 
 numbers = {'Real', 'int', 'long', 'size_t', 'Vector3r', 'Vector2r', 'Matrix3r', 'std::vector<Real>'}
-ours = [cls for name, cls in vars(yade.wrapper).items() if inspect.isclass(cls) and (name.startswith('Mpm') or name in ('BoucWenMat', 'J2Mat', 'DruckerPragerMat'))]
+ours = [cls for name, cls in vars(yade.wrapper).items() if inspect.isclass(cls) and (name.startswith('Mpm') or name in ('BoucWenMat', 'J2Mat', 'DruckerPragerMat', 'MohrCoulombMat'))]
 check('all classes of the plugin', len(ours) >= 5, ours)
 for cls in ours:
 	check('%s has a docstring' % cls.__name__, cls.__doc__ and len(cls.__doc__) > 20, cls.__doc__)

@@ -178,6 +178,7 @@ for unknown in 'stee', 2, -3, None:
 	refused('material = %r' % unknown, KeyError, 'mpm.drive: material = %r' % unknown, "['other', 'steel']", material=unknown)
 
 admissible = {BoucWenMat: dict(steel), J2Mat: dict(steel), DruckerPragerMat: dict(young=1e7, poisson=.3, density=1800., cohesion=1e4, internalFriction=.5, dilatancy=.1)}
+admissible[MohrCoulombMat] = dict(admissible[DruckerPragerMat], tensionCutoff=5e3)
 positive, notNegative = (0, -1, nan, inf), (-1, nan, inf)
 shared = {'young': (positive, 'positive modulus [Pa]'), 'poisson': ((-1, .5, nan), 'above -1 and below 0.5'), 'density': (positive, 'density > 0 [kg/m3]')}
 metal = dict(shared, yieldStress=(positive, 'positive stress [Pa]'), tangentRatio=((-.1, 1, nan), '[0, 1)'), isotropicModulus=(notNegative, '0 or more'),
@@ -186,6 +187,8 @@ bounds = {
 	J2Mat: metal,
 	DruckerPragerMat: dict(shared, cohesion=(notNegative, '0 or more'), internalFriction=((-.1, 1.57, nan), 'below 1.57 [rad]'), dilatancy=((-.1, .6, nan), '0 to internalFriction'),
 		match=(('triaxial', ''), "'planeStrain' or 'inscribed'")),
+	MohrCoulombMat: dict(shared, cohesion=(notNegative, '0 or more'), internalFriction=((-.1, 1.57, nan), 'below 1.57 [rad]'), dilatancy=((-.1, .6, nan), '0 to internalFriction'),
+		tensionCutoff=((-1, nan, 1.84e4, 1e9), 'or inf for no cut-off')),
 	BoucWenMat: dict(metal, n=(positive, 'positive exponent'), gamma=((.4,), 'abs(beta)'), tolerance=((0, 1e-14, .2, nan), '1e-13 to 0.1'), strengthDegradation=(notNegative, '0 or more'),
 		stiffnessDegradation=((-1, 2.1, nan), '0 to 2'), pinching=((-.1, 1, nan), '0 to below 1'), pinchingRate=(positive, 'positive number'), pinchingLevel=((-.1, 1, nan), '0 to below 1'),
 		pinchingWidth=(positive, 'positive part'), reloading=((.5, -1, nan), 'infinity'), loadingRule=(('papers',), "'normal'")),
@@ -207,6 +210,11 @@ for beta, gamma in (.5, .6), (nan, .5), (.5, nan):
 refused('a step that the law cannot follow', ValueError, 'mpm.drive: strain of entry 1: ', 'cannot follow', 'yieldStress in Pa',
 	strain=pull((0, 1e6)), material=BoucWenMat(**dict(steel, n=10, strengthDegradation=.1)))
 refused('no strength', RuntimeError, 'DruckerPragerMat.cohesion = 0: ', 'positive cohesion', material=DruckerPragerMat(young=1e7, poisson=.3))
+refused('no strength', RuntimeError, 'MohrCoulombMat.cohesion = 0: ', 'positive cohesion', material=MohrCoulombMat(young=1e7, poisson=.3))
+refused('tension beyond the apex', RuntimeError, 'MohrCoulombMat.tensionCutoff = 1: ', 'cohesion/tan(internalFriction) = 0 [Pa]', material=MohrCoulombMat(young=1e7, poisson=.3, internalFriction=.5, tensionCutoff=1))
+sheared = numpy.zeros((3, 3, 3))
+sheared[1:, 0, 1] = sheared[1:, 1, 0] = 1e-3
+refused('shear and two free normals', ValueError, 'mpm.drive: strain xy of entry 1 is 0.001: ', 'free one of them at most', material=MohrCoulombMat(**admissible[MohrCoulombMat]), strain=sheared, free=('yy', 'zz'))
 for option in dict(isotropicModulus=1e9), dict(strengthDegradation=.1), dict(stiffnessDegradation=.1), dict(pinching=.1), dict(reloading=2):
 	refused('the paper\'s rule with %s' % list(option)[0], RuntimeError, "BoucWenMat.loadingRule = 'paper': ", "'normal'", material=BoucWenMat(loadingRule='paper', **dict(steel, **option)))
 refused('yieldStress is mandatory', RuntimeError, 'BoucWenMat.yieldStress = nan: ', material=BoucWenMat())
@@ -214,7 +222,7 @@ material.n = 0
 refused('a material of the scene is named by its label', RuntimeError, "BoucWenMat 'steel'.n = 0: ", material='steel')
 material.label = ''
 refused('or by its place', RuntimeError, 'BoucWenMat 1.n = 0: ', material=1)
-refused('no law', RuntimeError, 'Material has no law', 'BoucWenMat', 'J2Mat', 'DruckerPragerMat', material=Material())
+refused('no law', RuntimeError, 'Material has no law', 'BoucWenMat', 'J2Mat', 'DruckerPragerMat', 'MohrCoulombMat', material=Material())
 
 # ---- a block of material points -----------------------------------------------------------------------------------------
 
@@ -255,7 +263,8 @@ def follow(material, strain, steps):
 
 for material in (FrictMat(**soft), BoucWenMat(n=2, tangentRatio=.05, yieldStress=strength, **soft), BoucWenMat(n=25, tangentRatio=.05, yieldStress=strength, reloading=inf, isotropicModulus=1e4, **soft),
 		J2Mat(tangentRatio=.05, yieldStress=strength, **soft), DruckerPragerMat(cohesion=500, internalFriction=.4, **soft),
-		DruckerPragerMat(cohesion=500, internalFriction=.4, dilatancy=.3, **soft), BoucWenMat(n=5, yieldStress=strength, stiffnessDegradation=1, **soft)):
+		DruckerPragerMat(cohesion=500, internalFriction=.4, dilatancy=.3, **soft), BoucWenMat(n=5, yieldStress=strength, stiffnessDegradation=1, **soft),
+		MohrCoulombMat(cohesion=500, internalFriction=.4, dilatancy=.3, **soft), MohrCoulombMat(cohesion=500, internalFriction=.4, tensionCutoff=300, **soft)):
 	(strain, stress, backStress, plasticStrain), steps = stretch(material)
 	what = 'a stretched block of %s%s: ' % (type(material).__name__, ', n = %g' % material.n if isinstance(material, BoucWenMat) else '')
 	near(what + 'homogeneous', strain[:, :, :2, :2]/1e-3, strain[:, :1, :2, :2].repeat(16, axis=1)/1e-3, 1e-9)

@@ -255,6 +255,7 @@ for material, analysis, tensor, parts in (
 	(BoucWenMat(young=1e6, poisson=.3, density=1000, yieldStress=1e3, tangentRatio=.1, n=4, label='m'), 'planeStress', numpy.diag((1001., 0, 0)), ('xx 1001', 'yield surface of BoucWenMat')),
 	(J2Mat(young=1e6, poisson=.3, density=1000, yieldStress=1e3, label='m'), 'planeStrain', numpy.diag((1001., 0, 0)), ('yield surface of J2Mat', )),
 	(DruckerPragerMat(young=1e6, poisson=.3, density=1000, cohesion=0, internalFriction=.5, label='m'), 'planeStrain', numpy.diag((1., 1, 1)), ('yield surface of DruckerPragerMat', )),
+	(MohrCoulombMat(young=1e6, poisson=.3, density=1000, cohesion=1e3, internalFriction=.5, tensionCutoff=10, label='m'), 'planeStrain', numpy.diag((11., -1, -1)), ('yield surface of MohrCoulombMat', )),
 	(FrictMat(young=1e6, poisson=.3, density=1000, label='m'), 'planeStress', numpy.diag((0, 0, 1.)), ('zz', 'plane stress')),
 	(FrictMat(young=1e6, poisson=.3, density=1000, label='m'), 'planeStrain', [[0, 0, 1], [0, 0, 0], [1, 0, 0]], ('shear out of its plane', )),
 ):

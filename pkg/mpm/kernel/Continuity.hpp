@@ -19,7 +19,7 @@ still on both sides and the gap grows. The gap, what the one length has more tha
 grows without bound in a torn one; neither F nor the distance alone tells. (Lengths, because a rotation is not a gap.)
 
 The same holds for a point and a fixed wall, whose image behind the wall it is tied to. A slip wall is left out: bodies rebound
-from it. So are points of a law that lets go by itself in tension (Drucker-Prager). */
+from it. So are points of a law that lets go by itself in tension (Drucker-Prager, Mohr-Coulomb). */
 class Continuity {
 public:
 	/* Throws StepFailure where a gap is wider than `largest` [m]. Neighbours are looked for where none are known, and where there are

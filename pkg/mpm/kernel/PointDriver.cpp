@@ -91,6 +91,16 @@ PointHistory drivePoint(const Law& law, const std::vector<double>& strain, const
 	const std::string error = validate(law);
 	if (!error.empty()) throw std::invalid_argument(error);
 	requirePath(strain, free, pause);
+	if (!law.sharesFreeStrain() && std::count(free.begin(), free.end(), true) > 1)
+		for (std::size_t i = 0; i < strain.size(); ++i)
+			if (i % 9 % 4 != 0 && strain[i] != 0) {
+				std::ostringstream text;
+				text << "strain "
+				     << "xyz"[i % 9 / 3] << "xyz"[i % 3] << " of entry " << i / 9 << " is " << strain[i]
+				     << ": under shear the stress-free normal components of this material differ in strain; free one of them at most, or give "
+					"no shear";
+				throw std::invalid_argument(text.str());
+			}
 	std::array<int, 3> axes {};
 	std::size_t        kept = 0;
 	for (const bool wanted : { false, true })

@@ -3,6 +3,7 @@
 
 namespace yade::mpm {
 
+struct Hooke;
 struct Law;
 
 /* Internal variables of a point, columns of Points::internal: first tensors in the components of the stress state,
@@ -18,11 +19,13 @@ struct Internals {
 /* Properties that most laws share. A law derives from this struct and redefines the members that differ for it. */
 struct LawDefaults {
 	/* Factor on Hooke's D that bounds the tangent; the stable time step shrinks with its root. */
-	double stiffnessBound() const { return 1; }
+	double stiffnessBound(const Hooke&) const { return 1; }
 	/* Whether tr eps = (1 - 2 nu)/E tr sigma always: the flow keeps the volume, and the compliance stays. */
 	bool keepsVolume() const { return true; }
 	/* Whether points may separate because the law carries no tension beyond a limit: a gap is then no numerical fracture. */
 	bool hasTensionCutoff() const { return false; }
+	/* Whether stress-free normals always get the same strain; else only without shear. */
+	bool sharesFreeStrain() const { return true; }
 	/* Whether the update adds the strain of stress-free normals to the response itself. Where it does not, the strain
 	follows from a flow that keeps the volume. */
 	static constexpr bool findsFreeStrain = false;

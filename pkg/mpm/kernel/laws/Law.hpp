@@ -5,13 +5,14 @@
 #include "DruckerPrager.hpp"
 #include "Elastic.hpp"
 #include "J2.hpp"
+#include "MohrCoulomb.hpp"
 #include <string>
 #include <variant>
 
 namespace yade::mpm {
 
 /* The list of laws. A law is one struct, in a file of its own (doc/add-a-law.md), and one entry here. */
-using Model = std::variant<Elastic, BoucWen, J2, DruckerPrager>;
+using Model = std::variant<Elastic, BoucWen, J2, DruckerPrager, MohrCoulomb>;
 
 namespace detail {
 	/* work(model) with the law that a Model holds; like std::visit, but the compiler can inline it for an instruction set. */
@@ -40,7 +41,7 @@ struct Law {
 
 	double stiffnessBound() const
 	{
-		return visit([](const auto& law) { return law.stiffnessBound(); });
+		return visit([this](const auto& law) { return law.stiffnessBound(elastic); });
 	}
 	bool keepsVolume() const
 	{
@@ -49,6 +50,10 @@ struct Law {
 	bool hasTensionCutoff() const
 	{
 		return visit([](const auto& law) { return law.hasTensionCutoff(); });
+	}
+	bool sharesFreeStrain() const
+	{
+		return visit([](const auto& law) { return law.sharesFreeStrain(); });
 	}
 };
 

@@ -45,9 +45,11 @@ template <class S> void condenseTangent(const double* solid, double* tangent)
 			rows[i][j] = column(S::voigtIndex[std::size_t(i)], j);
 		freeRow[j] = column(2, j);
 	}
+	// where the free normals carry no tension, their strain has no effect
+	const bool opens = !(std::abs(freeRow[N]) > 1e-9 * std::abs(solid[0])) && !(std::abs(freeRow[N]) > 1e-9 * std::abs(rows[0][0]));
 	for (int i = 0; i < N; ++i)
 		for (int j = 0; j < N; ++j)
-			tangent[i * N + j] = rows[i][j] - rows[i][N] * freeRow[j] / freeRow[N];
+			tangent[i * N + j] = rows[i][j] - (opens ? 0 : rows[i][N] * freeRow[j] / freeRow[N]);
 }
 
 } // namespace yade::mpm

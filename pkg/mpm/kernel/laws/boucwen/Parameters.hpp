@@ -54,7 +54,7 @@ struct BoucWen : LawDefaults {
 	}
 
 	/* Factor on D that bounds the tangent: unloading is stiffer than elastic where gamma > beta. */
-	double stiffnessBound() const { return 1 + std::max(0., gamma - beta); }
+	double stiffnessBound(const Hooke&) const { return 1 + std::max(0., gamma - beta); }
 
 	bool degrades() const { return strengthDegradation != 0 || stiffnessDegradation != 0 || pinching != 0; }
 	bool remembers() const { return reloading != 0; }
