@@ -11,8 +11,9 @@
 
 fill makes points of a region, points makes them from arrays, setStress gives them a stress to start with, traction loads a face; array
 looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single point through strains
-(PointHistory), readStl reads a surface to fill, readMesh a mesh. Classes: MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the
-materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
+(PointHistory), calibrate fits a material to tests (Calibration, Undetermined), readStl reads a surface to fill, readMesh a mesh. Classes:
+MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the materials BoucWenMat, J2Mat, DruckerPragerMat, MohrCoulombMat. help() of
+any of them says more.
 
 Units are SI, tension is positive.
 """
@@ -21,6 +22,7 @@ import yade.wrapper
 
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
+from .calibrate import Calibration, Undetermined, calibrate
 from .driver import PointHistory, drive
 from .load import traction
 from .mesh import readMesh
@@ -29,7 +31,7 @@ from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
+__all__ = ['Calibration', 'PointHistory', 'Undetermined', 'array', 'calibrate', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
 
 
 def __dir__(): return __all__

@@ -27,8 +27,8 @@ mpmPackages=(
 	libgtest-dev libbenchmark-dev xvfb xauth
 	# the manual
 	python3-sphinx python3-myst-parser
-	# the Python face, plots, STL files
-	python3-numpy python3-matplotlib python3-vtk9
+	# the Python face, plots, STL files, mpm.calibrate
+	python3-numpy python3-matplotlib python3-vtk9 python3-scipy
 )
 # What YADE's own headers include beside that.
 mpmSourcePackages=(libopenmpi-dev libboost-log-dev libboost-thread-dev libmpfr-dev libmpfrc++-dev libmpc-dev libgmp-dev)
