@@ -51,8 +51,10 @@ def main():
 	for name, row in zip(fit.names, fit.correlation): print('  %-17s %s' % (name, ' '.join('%5.2f' % value for value in row)))
 	with open(os.path.join(options.out, 'calibrate.csv'), 'w', newline='') as f:
 		writer = csv.writer(f)
-		writer.writerow(['parameter', 'known', 'fitted', 'standardError'])
-		for name in fit.names: writer.writerow([name, '' if options.record else KNOWN[name], fit.parameters[name], fit.standardErrors[name]])
+		writer.writerow(['strain', 'measured_Pa', 'fit_Pa'])
+		computed = fit.histories[0]
+		for strain, stress, difference in zip(computed.strain[:, 0, 0], computed.stress[:, 0, 0], fit.residuals[0][:, 0, 0]):
+			writer.writerow([strain, stress - difference, stress])
 	if not options.record:
 		for name in fit.names:
 			print('%-17s known %-10.5g off by %+.1f standard errors' % (name, KNOWN[name], (fit.parameters[name] - KNOWN[name])/fit.standardErrors[name]))
