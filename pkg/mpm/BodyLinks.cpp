@@ -123,6 +123,7 @@ void BodyLinks::takeVelocity(mpm::Points& points, std::size_t p, bool touched, c
 		const Real old = v;
 		v              = touched ? old + (shown[int(d)] - points.contactVelocity[d][p]) : shown[int(d)];
 		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
+		if (touched) points.contactVelocity[d][p] = shown[int(d)]; // a second look before the step must not take the change again
 	}
 }
 

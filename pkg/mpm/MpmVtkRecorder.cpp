@@ -135,7 +135,7 @@ std::string MpmVtkRecorder::nameOf(const std::string& what) const { return fileN
 void MpmVtkRecorder::check(const MpmPoints& points) const
 {
 	const std::filesystem::path folder = std::filesystem::path(nameOf("points")).parent_path();
-	require(!fileName.empty(), self, "fileName", "''", "say where files go, e.g. 'out/beam-'");
+	require(!fileName.empty(), self, "fileName", "''", "give the beginning of the files' names, e.g. 'out/beam-'");
 	require(folder.empty() || std::filesystem::is_directory(folder), self, "fileName", "'" + fileName + "'",
 		"there is no folder " + folder.string() + "; make it first (os.makedirs)");
 	for (const std::string& name : recorders) {

@@ -90,7 +90,7 @@ class Scene:
 		if r.random() < .4: self.fill(r, 'b', at=1.)
 		engine = self.engine(r)
 		engine.ompThreads = threads
-		others = [InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()])] if self.contacts else []
+		others = [InsertionSortCollider([Bo1_Sphere_Aabb()]), InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()], loopOnSortedInteractions=True)] if self.contacts else []
 		O.engines = [ForceResetter()] + others + [engine] + ([NewtonIntegrator()] if self.contacts else [])
 		if self.contacts:
 			O.materials.append(FrictMat(label='grain', young=1e6, poisson=.3, density=2000, frictionAngle=.4))

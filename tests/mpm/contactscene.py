@@ -95,6 +95,21 @@ O.run(3, True)
 check('points that a script has moved to a grain touch it', len(touching([ball])) > 0)
 equal('points do not touch each other', [c for c in touching() if c[0] in ids and c[1] in ids], [])
 
+# ---- a script gives a touching point another velocity: the change acts once, however often the scene is looked at ------
+ends = []
+for looks in 0, 1, 3:
+	ids, (ball, ), grid = scene([((.1875, .5625, .5 + .1 - .001), (0, 0, -.1), .1)])
+	O.dt = .2*mpm.criticalTimeStep()
+	O.run(3, True)
+	hit = [c[0] if c[0] in ids else c[1] for c in touching([ball])][0]
+	O.bodies[hit].state.vel += Vector3(.5, 0, -.25)
+	for _ in range(looks): mpm.criticalTimeStep()
+	O.run(5, True)
+	ends.append(everything())
+check('the change is seen', abs(ends[0]['velocity'][:, 0]).max() > .01)
+for end in ends[1:]:
+	for name in end: same('looks between the change of a velocity and the step: ' + name, end[name], ends[0][name])
+
 # ---- erasing and adding in mid-run ------------------------------------------------------------------------------------
 row = [((.1875 + .25*k, .5625, .5 + .1 - .001), (0, 0, -.1), .1) for k in range(3)]
 ids, balls, grid = scene(row)
