@@ -30,4 +30,8 @@ for angle in '30', '20':
 	runout.append(last['front_over_r0'] - 1)
 check('column_collapse: it has spread', runout[0] > .6, runout)
 check('column_collapse: farther with less friction', runout[1] > 1.3*runout[0], runout)
+rows = example('retaining_wall', '--points', '16')
+for case in 'passive', 'active':  # 7 % with these few points, 4 % with 24
+	last = [row for row in rows if row['case'] == case][-20:]
+	near('retaining_wall, %s: force over Coulomb\'s' % case, numpy.mean([row['coefficient'] for row in last])/last[0]['coulomb'], 1, .1)
 finish()
