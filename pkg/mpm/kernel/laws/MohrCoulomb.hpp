@@ -123,8 +123,8 @@ struct MohrCoulomb : LawDefaults {
 			const T    gapEdge = upper - lower - onEdge * (G2 * (right ? up + .5 * down : .5 * up + down));
 			const bool atApex  = edge & !(gapEdge > 0) & (f > 0);
 			T          s1      = edge ? upper - onEdge * (G2 * (right ? up : .5 * up) + lame * volume) : x1 - onFace * (G2 * up + lame * volume);
-			T          d12     = edge ? (right & !atApex ? gapEdge : T(0)) : gap12 - onFace * (G2 * up);
-			T          d23     = edge ? (!right & !atApex ? gapEdge : T(0)) : gap23 - onFace * (G2 * down);
+			T          d12     = edge ? ((right & !atApex) ? gapEdge : T(0)) : gap12 - onFace * (G2 * up);
+			T          d23     = edge ? ((!right & !atApex) ? gapEdge : T(0)) : gap23 - onFace * (G2 * down);
 			s1 = flows ? atApex ? T(apexStress) : s1 : x1, d12 = flows ? d12 : gap12, d23 = flows ? d23 : gap23;
 			bool moves = flows, keepsLowerPair = false;
 
