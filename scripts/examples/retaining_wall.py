@@ -8,6 +8,9 @@ of YADE, which a TranslationEngine moves. Sand and wall touch by Cundall and Str
 of --friction degrees. --points is the number of material points over the height. The force on the wall is
 compared with Rankine's (smooth wall) and Coulomb's (with wall friction): 4 % above Coulomb's passive and 3 %
 below his active pressure, half a minute each. Writes retaining_wall.csv and .png.
+
+The base matters more than anything else here. It has friction 0.577, that of the sand itself. On a fixed base the
+passive force is 70 % above Coulomb's, because the sand sticks to it; on a smooth one the sand slides off as a block.
 """
 import argparse
 import csv
