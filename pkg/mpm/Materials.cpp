@@ -29,6 +29,10 @@ namespace {
 		law.pinchingLevel        = m.pinchingLevel;
 		law.pinchingWidth        = m.pinchingWidth;
 		law.reloading            = m.reloading;
+		if (m.degradationMeasure == "hysteretic")
+			law.degradationMeasure = mpm::BoucWen::DegradationMeasure::hysteretic;
+		else if (m.degradationMeasure != "plastic")
+			refuse(name, "degradationMeasure", "'" + m.degradationMeasure + "'", "choose 'plastic', or 'hysteretic' for Baber and Noori's e");
 		if (m.loadingRule == "paper")
 			law.loadingRule = mpm::BoucWen::LoadingRule::paper;
 		else if (m.loadingRule != "normal")

@@ -82,7 +82,7 @@ struct Cube : LawPoint<Solid> {
 			const double t = .001 * k, c = .001 * e.radial / (e.R + t * e.radial), b = .001 * e.axial / (e.L + t * e.axial), g[3] { c, b, c };
 			double       increment[3];
 			for (int d = 0; d < 3; ++d)
-				increment[d] = large ? g[d] / (1 + .5 * g[d]) : g[d], stretch[d] += large ? g[d] * stretch[d] : g[d];
+				increment[d] = large ? std::log1p(g[d]) : g[d], stretch[d] += large ? g[d] * stretch[d] : g[d];
 			strain({ increment[0], increment[1], increment[2], 0, 0, 0 });
 		}
 	}

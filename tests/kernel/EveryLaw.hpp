@@ -74,6 +74,11 @@ inline std::vector<NamedLaw> everyLaw()
 						 p.isotropic = voce, p.strengthDegradation = .1, p.stiffnessDegradation = .3, p.pinching = .7,
 						 p.reloading = infinity;
 					 }) },
+		{ "hysteretic measure", boucWenWith(2,
+						[](auto& p) {
+							p.strengthDegradation = .1, p.stiffnessDegradation = .3,
+							p.degradationMeasure = BoucWen::DegradationMeasure::hysteretic;
+						}) },
 		{ "the paper's rule", boucWenWith(2, [](auto& p) { p.loadingRule = BoucWen::LoadingRule::paper; }) },
 	};
 }

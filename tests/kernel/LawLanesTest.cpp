@@ -24,27 +24,16 @@ template <class S> void comparePaths(const Law& law, InstructionSet set, bool la
 		LawBlock<S> block {};
 		block.respond = true;
 		std::vector<LawPoint<S>> alone(lanes, LawPoint<S>(law));
-		std::array<double, dim2> F[lanes];
 		for (int l = 0; l < lanes; ++l)
 			for (int k = 0; k < dim2; ++k)
-				F[l][std::size_t(k)] = block.F[k][l] = k % (S::dim + 1) == 0;
+				block.F[k][l] = k % (S::dim + 1) == 0;
 		for (int i = 0; i < 6; ++i) {
 			for (int l = 0; l < lanes; ++l) {
 				double       G[dim2];
 				const double size = l == 3 ? 0 : std::pow(10, -4 + 5 * unit(random)); // one lane stands still
 				for (int k = 0; k < dim2; ++k)
 					G[k] = block.G[k][l] = size * yieldStrain * normal(random) / S::dim;
-				Increment<S> increment;
-				LawPoint<S>& point = alone[std::size_t(l)];
-				if (largeStrain) {
-					increment.large(G);
-					increment.rotate(point.sigma);
-					for (int t = 0; t < layout.tensors; ++t)
-						increment.rotate(point.internal.data() + t * N);
-				} else
-					increment.small(G);
-				updateStress<S>(law, increment.strain, point.sigma, point.internal.data(), &point.response);
-				advanceDeformation<S::dim>(G, largeStrain, F[l].data());
+				alone[std::size_t(l)].deform(largeStrain, G);
 			}
 			updateBlock(set, law, largeStrain, block);
 			for (int l = 0; l < lanes; ++l) {
@@ -58,7 +47,7 @@ template <class S> void comparePaths(const Law& law, InstructionSet set, bool la
 					compare(block.internal[k][l], point.internal[std::size_t(k)], scalar < 0 ? yieldStress : scale);
 				}
 				for (int k = 0; k < dim2; ++k)
-					compare(block.F[k][l], F[l][std::size_t(k)], 1);
+					compare(block.F[k][l], point.F[std::size_t(k)], 1);
 				compare(block.response.dissipation[l], point.response.dissipation, yieldStress * yieldStrain + point.response.dissipation);
 				compare(block.response.freeStrain[l], point.response.freeStrain, yieldStrain);
 				if (columns > 0) flow = std::max(flow, point.plasticStrain());

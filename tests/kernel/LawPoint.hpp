@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "kernel/laws/Law.hpp"
+#include "kernel/laws/StrainIncrement.hpp"
 #include <functional>
 #include <random>
 #include <vector>
@@ -36,10 +36,14 @@ template <class S> struct LawPoint {
 	Response            response;
 	double              work = 0; // trapezoids of sigma . d eps
 
+	std::array<double, std::size_t(S::dim* S::dim)> F {}; // deformation gradient
+
 	explicit LawPoint(const Law& law_)
 	    : law(law_)
 	    , internal(std::size_t(Internals::of(law).columns(S::N)), 0.)
 	{
+		for (int d = 0; d < S::dim; ++d)
+			F[std::size_t(d * (S::dim + 1))] = 1;
 	}
 	void strain(const std::array<double, S::N>& increment, int steps = 1)
 	{
@@ -60,6 +64,14 @@ template <class S> struct LawPoint {
 		for (int k = 0; k < S::N; ++k)
 			xi[k] = sigma[k] - (Internals::of(law).tensors > 0 ? internal[std::size_t(k)] : 0);
 		return std::sqrt(S::mises2(xi)) / yieldStress;
+	}
+	/* A step of the kinematics, then the law. */
+	void deform(bool large, const double* G)
+	{
+		double increment[S::N];
+		strainIncrement<S>(law, large, G, F.data(), sigma, internal.data(), increment);
+		updateStress<LawState<S>>(law, increment, sigma, internal.data(), &response);
+		advanceDeformation<S::dim>(G, large, F.data());
 	}
 	double energy() const { return elasticEnergy<S>(law, sigma, internal.data()) + hardeningEnergy<S>(law, internal.data()); }
 };

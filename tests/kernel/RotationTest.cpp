@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /* Objectivity: rotations make no strain and turn stress and back stress with the material.
 
-Increment after Hughes & Winget, IJNME 15 (1980) 1862: for G = R - I with a rotation R by less than pi, the strain increment is
-zero and the rotation is R itself, both exactly, whatever the size of the step. So after any number of steps of a full
-turn a stress comes back, to the rounding of that number of steps. */
+For G = R - I with a rotation R by less than pi, the strain increment is zero and the rotation is R itself, both exactly, whatever the
+size of the step. So after any number of steps of a full turn a stress comes back, to the rounding of that number of steps. */
+#include "LawPoint.hpp"
 #include "Scene.hpp"
 #include <gtest/gtest.h>
 
@@ -38,59 +38,48 @@ TYPED_TEST_SUITE(RotationTest, States);
 TYPED_TEST(RotationTest, OfAnySizeMakesNoStrainAndTurnsTheStress)
 {
 	const double sigma[6] = { 3, -1, .5, .7, -.4, 1.1 };
-	for (double angle : { 1e-9, 1e-3, .1, -.5, 1., 2., 3. }) {
-		const Eigen::Vector3d axis = TypeParam::dim == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, .5);
-		const Matrix          R    = rotation(axis, angle);
-		Increment<TypeParam>  increment;
-		std::array<double, 6> s;
-		std::copy(sigma, sigma + 6, s.begin());
-		increment.large(gradient<TypeParam>(R).data());
-		for (int k = 0; k < TypeParam::N; ++k)
-			EXPECT_NEAR(increment.strain[k], 0, 1e-12) << "angle " << angle; // the inverse of I + G/2 near a half-turn costs digits
-		increment.rotate(s.data());
-		const Matrix expected = R * tensor<TypeParam>(sigma) * R.transpose();
-		EXPECT_LT((tensor<TypeParam>(s.data()) - expected).norm(), 1e-12) << "angle " << angle;
-		if (angle > .05) {
-			EXPECT_GT((expected - tensor<TypeParam>(sigma)).norm(), .1) << "the rotation changes nothing";
+	for (bool tensors : { false, true })
+		for (double angle : { 1e-9, 1e-3, .1, -.5, 1., 2., 3. }) {
+			const Eigen::Vector3d axis = TypeParam::dim == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, .5);
+			const Matrix          R    = rotation(axis, angle);
+			LawPoint<TypeParam>   point(tensors ? j2Law(0) : Scene::elastic(youngModulus, poissonRatio, 7850));
+			std::copy(sigma, sigma + TypeParam::N, point.sigma);
+			double strain[TypeParam::N];
+			strainIncrement<TypeParam>(point.law, true, gradient<TypeParam>(R).data(), point.F.data(), point.sigma, point.internal.data(), strain);
+			for (int k = 0; k < TypeParam::N; ++k)
+				EXPECT_NEAR(strain[k], 0, 1e-14) << "angle " << angle;
+			const Matrix expected = R * tensor<TypeParam>(sigma) * R.transpose();
+			EXPECT_LT((tensor<TypeParam>(point.sigma) - expected).norm(), 1e-12) << "angle " << angle;
+			if (angle > .05) {
+				EXPECT_GT((expected - tensor<TypeParam>(sigma)).norm(), .1) << "the rotation changes nothing";
+			}
+			// the small-strain increment takes the same motion for a strain
+			strainIncrement<TypeParam>(point.law, false, gradient<TypeParam>(R).data(), point.F.data(), point.sigma, point.internal.data(), strain);
+			EXPECT_NEAR(strain[0] + strain[1], R(0, 0) + R(1, 1) - 2, 1e-14);
 		}
-		// the small-strain increment takes the same motion for a strain
-		increment.small(gradient<TypeParam>(R).data());
-		EXPECT_NEAR(increment.strain[0] + increment.strain[1], R(0, 0) + R(1, 1) - 2, 1e-14);
-	}
 }
 
 TYPED_TEST(RotationTest, FullTurnBringsStressAndBackStressBack)
 {
 	for (int steps : { 7, 100, 10000 }) {
-		const Eigen::Vector3d  axis      = TypeParam::dim == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, .5);
-		Law                    law       = Scene::boucWen(1e5, .3, 1000, 500, 2, .05);
-		const double           sigma0[6] = { 300, -100, 50, 70, -40, 110 }, eta0[6] = { 20, -10, -10, 3, 4, -7 };
-		std::array<double, 6>  sigma;
-		std::array<double, 16> internal {};
-		std::copy(sigma0, sigma0 + 6, sigma.begin()), std::copy(eta0, eta0 + TypeParam::N, internal.begin());
-		constexpr int                       D2 = TypeParam::dim * TypeParam::dim;
-		std::array<double, std::size_t(D2)> F {};
-		for (int d = 0; d < TypeParam::dim; ++d)
-			F[std::size_t(d * (TypeParam::dim + 1))] = 1;
+		const Eigen::Vector3d axis      = TypeParam::dim == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, .5);
+		const double          sigma0[6] = { 300, -100, 50, 70, -40, 110 }, eta0[6] = { 20, -10, -10, 3, 4, -7 };
+		LawPoint<TypeParam>   point(Scene::boucWen(1e5, .3, 1000, 500, 2, .05));
+		std::copy(sigma0, sigma0 + TypeParam::N, point.sigma), std::copy(eta0, eta0 + TypeParam::N, point.internal.begin());
 		double furthest = 0;
 		for (int k = 0; k < steps; ++k) {
-			const auto           G = gradient<TypeParam>(rotation(axis, 2 * pi / steps));
-			Increment<TypeParam> increment;
-			increment.large(G.data());
-			increment.rotate(sigma.data()), increment.rotate(internal.data());
-			updateStress<TypeParam>(law, increment.strain, sigma.data(), internal.data());
-			advanceDeformation<TypeParam::dim>(G.data(), true, F.data());
-			furthest = std::max(furthest, std::abs(sigma[0] - sigma0[0]));
+			point.deform(true, gradient<TypeParam>(rotation(axis, 2 * pi / steps)).data());
+			furthest = std::max(furthest, std::abs(point.sigma[0] - sigma0[0]));
 		}
 		EXPECT_GT(furthest, 50) << "the stress has not turned";
 		const double tolerance = 1e-10 * 300 + 2e-16 * 1e5 * steps; // the second: Young's modulus times the rounding of R - I
 		for (int k = 0; k < TypeParam::N; ++k) {
-			EXPECT_NEAR(sigma[std::size_t(k)], sigma0[k], tolerance) << steps << " steps";
-			EXPECT_NEAR(internal[std::size_t(k)], eta0[k], tolerance) << steps << " steps";
+			EXPECT_NEAR(point.sigma[k], sigma0[k], tolerance) << steps << " steps";
+			EXPECT_NEAR(point.internal[std::size_t(k)], eta0[k], tolerance) << steps << " steps";
 		}
-		EXPECT_NEAR(internal[TypeParam::N], 0, 1e-12) << "rotation has made plastic strain";
-		for (int k = 0; k < D2; ++k)
-			EXPECT_NEAR(F[std::size_t(k)], k % (TypeParam::dim + 1) == 0, 1e-10) << steps << " steps";
+		EXPECT_NEAR(point.plasticStrain(), 0, 1e-12) << "rotation has made plastic strain";
+		for (int k = 0; k < TypeParam::dim * TypeParam::dim; ++k)
+			EXPECT_NEAR(point.F[std::size_t(k)], k % (TypeParam::dim + 1) == 0, 1e-10) << steps << " steps";
 	}
 }
 

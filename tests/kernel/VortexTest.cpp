@@ -4,16 +4,18 @@ of Kamojjala, Brannon, Sadeghirad & Guilkey, Verification tests in solid mechani
 
 A point at radius R turns about the middle of a square by alpha = A s(t) g(R), g = (1 - R^2/R0^2)^4 within R0, at rest beyond it, where the walls are;
 s = (1 - cos omega t)^2/4. In axes that turn with the point this is simple shear by gamma = R d alpha/dR, of constant volume, in plane stress, plane strain and
-between slip walls in 3D alike. The law of Jaumann's rate, to which Hughes and Winget's increments converge, gives there
-  sigma_(theta r) = mu sin gamma,  sigma_(theta theta) = -sigma_rr = mu (1 - cos gamma),
+between slip walls in 3D alike. With Hencky's strain the stress is there, with r = sqrt(1 + gamma^2/4) and e = asinh(gamma/2),
+  sigma_(theta r) = 2 mu e/r =: tau,  sigma_(theta theta) = -sigma_rr = gamma/2 tau,
 and balance of momentum the body force a mass
-  b_r = -R alpha'^2 + mu/rho [sin(gamma) d gamma/dR + 2 (1 - cos gamma)/R],  b_theta = R alpha'' - mu/rho [cos(gamma) d gamma/dR + 2 sin(gamma)/R]. */
+  b_r = -R alpha'^2 + 1/rho [d(gamma tau/2)/dR + gamma tau/R],  b_theta = R alpha'' - 1/rho [d tau/dR + 2 tau/R]. */
 #include "Manufactured.hpp"
 #include <gtest/gtest.h>
 
 using namespace yade::mpm;
 
 namespace {
+
+double shearStress(double gamma) { return 2 * std::asinh(.5 * gamma) / std::sqrt(1 + .25 * gamma * gamma); } // of mu
 
 struct Vortex {
 	double position = 0, stress = 0; // errors at the end, root mean squares [m], of mu
@@ -40,10 +42,11 @@ struct Vortex {
 			for (std::size_t p = 0; p < s.points.count(); ++p) {
 				const auto   i = std::size_t(s.points.id[p]);
 				const double R = std::hypot(X[0][i], X[1][i]), q = R < R0 ? 1 - R * R / (R0 * R0) : 0, g = A * q * q * q * q;
-				const double gamma   = -8 * A * s0 * q * q * q * R * R / (R0 * R0),
-					     slope   = -16 * A * s0 * q * q * R / (R0 * R0) * (q - 3 * R * R / (R0 * R0));
-				const double br      = -R * std::pow(s1 * g, 2) + mu / density * (std::sin(gamma) * slope + 2 * (1 - std::cos(gamma)) / R);
-				const double bt      = R * s2 * g - mu / density * (std::cos(gamma) * slope + 2 * std::sin(gamma) / R);
+				const double gamma = -8 * A * s0 * q * q * q * R * R / (R0 * R0),
+					     slope = -16 * A * s0 * q * q * R / (R0 * R0) * (q - 3 * R * R / (R0 * R0));
+				const double tau = shearStress(gamma), rise = (1 - .25 * gamma * tau) / (1 + .25 * gamma * gamma); // of mu; d tau/d gamma
+				const double br      = -R * std::pow(s1 * g, 2) + mu / density * (.5 * (tau + gamma * rise) * slope + gamma * tau / R);
+				const double bt      = R * s2 * g - mu / density * (rise * slope + 2 * tau / R);
 				const double angle   = std::atan2(X[1][i], X[0][i]) + s0 * g;
 				s.points.force[0][p] = s.points.mass[p] * (br * std::cos(angle) - bt * std::sin(angle));
 				s.points.force[1][p] = s.points.mass[p] * (br * std::sin(angle) + bt * std::cos(angle));
@@ -57,7 +60,7 @@ struct Vortex {
 			const double R = std::hypot(X[0][i], X[1][i]), q = R < R0 ? 1 - R * R / (R0 * R0) : 0;
 			const double gamma = -8 * A * q * q * q * R * R / (R0 * R0), angle = std::atan2(X[1][i], X[0][i]) + A * q * q * q * q;
 			const double off[2] = { s.points.position[0][p] - R * std::cos(angle), s.points.position[1][p] - R * std::sin(angle) };
-			const double hoop = mu * (1 - std::cos(gamma)), shear = mu * std::sin(gamma), co = std::cos(2 * angle), si = std::sin(2 * angle);
+			const double shear = mu * shearStress(gamma), hoop = .5 * gamma * shear, co = std::cos(2 * angle), si = std::sin(2 * angle);
 			// to the axes: twice the angle, the mean stress is zero
 			const double      xx = -hoop * co - shear * si, xy = -hoop * si + shear * co;
 			const auto&       sigma = s.points.stress;

@@ -191,7 +191,7 @@ bounds = {
 		tensionCutoff=((-1, nan, 1.84e4, 1e9), 'or inf for no cut-off')),
 	BoucWenMat: dict(metal, n=(positive, 'positive exponent'), gamma=((.4,), 'abs(beta)'), tolerance=((0, 1e-14, .2, nan), '1e-13 to 0.1'), strengthDegradation=(notNegative, '0 or more'),
 		stiffnessDegradation=((-1, 2.1, nan), '0 to 2'), pinching=((-.1, 1, nan), '0 to below 1'), pinchingRate=(positive, 'positive number'), pinchingLevel=((-.1, 1, nan), '0 to below 1'),
-		pinchingWidth=(positive, 'positive part'), reloading=((.5, -1, nan), 'infinity'), loadingRule=(('papers',), "'normal'")),
+		pinchingWidth=(positive, 'positive part'), reloading=((.5, -1, nan), 'infinity'), degradationMeasure=(('energy',), "'hysteretic'"), loadingRule=(('papers',), "'normal'")),
 }
 for kind, parameters in bounds.items():
 	name = kind.__name__

@@ -48,12 +48,11 @@ private:
 				displacementGradient<S>(w[l], v, x[0][l], 1, l, G);
 				const Law&   law = m_laws[std::size_t(P.material[block.first + std::size_t(l)])];
 				const double Vl  = law.stiffnessBound() * V[l];
-				double       g[gradients<S>], s[S::N];
+				double       g[gradients<S>], strain[S::N], s[S::N];
 				for (int k = 0; k < gradients<S>; ++k)
 					g[k] = G[k][l];
-				Increment<S> increment;
-				increment.small(g);
-				S::elastic(law.elastic, increment.strain, s);
+				smallStrain<S>(g, strain);
+				S::elastic(law.elastic, strain, s);
 				for (double& component : s)
 					component *= Vl;
 				w[l].forEachNode([&](int i, double Nip, const std::array<double, dim>& grad) {

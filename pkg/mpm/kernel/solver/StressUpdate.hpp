@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../laws/LawLanes.hpp"
+#include "../laws/StrainIncrement.hpp"
 #include "MeanDilatation.hpp"
 #include "NodeFields.hpp"
 #include "StressWork.hpp"
@@ -214,7 +215,7 @@ private:
 	void strainNormal(std::size_t p, double e)
 	{
 		if (!points().freeStrain.empty()) points().freeStrain[p] += e;
-		if (std::is_same_v<S, PlaneStress> && control.thinning) points().thicknessStretch[p] *= (1 + .5 * e) / (1 - .5 * e);
+		if (std::is_same_v<S, PlaneStress> && control.thinning) points().thicknessStretch[p] *= std::exp(e);
 	}
 	[[gnu::noinline]] void updatePointStress(std::size_t t, std::size_t p, const double (&G)[gradients<S>], TileReport& report)
 	{
@@ -233,33 +234,28 @@ private:
 			advanceDeformation<dim>(G, control.largeStrain, F);
 			return report.fail(p, determinant<dim>(F) > 0 ? tooFar : noVolume);
 		}
-		Increment<S> increment;
-		if (control.largeStrain) {
-			increment.large(G);
-			increment.rotate(sigma);
-			for (int k = 0; k < layout.tensors; ++k)
-				increment.rotate(internal + k * N);
-		} else
-			increment.small(G);
+		double strain[N], now[dim * dim];
+		std::copy(F, F + dim * dim, now);
+		advanceDeformation<dim>(G, control.largeStrain, now);
+		if (!(determinant<dim>(now) > 0)) return report.fail(p, noVolume);
+		strainIncrement<S>(law, control.largeStrain, G, F, sigma, internal, strain);
 		const bool responds = energies || !P.freeStrain.empty() || (std::is_same_v<S, PlaneStress> && control.thinning);
 		Response   response;
 
 		std::optional<StressWork<S>> work;
-		if (energies) work.emplace(P, law, p, control.largeStrain, F, increment.strain, sigma, internal);
-		updateStress<LawState<S>>(law, increment.strain, sigma, internal, responds ? &response : nullptr);
+		if (energies) work.emplace(P, law, p, control.largeStrain, F, strain, sigma, internal);
+		updateStress<LawState<S>>(law, strain, sigma, internal, responds ? &response : nullptr);
 		if (!isFinite<N>(sigma)) return report.fail(p, noStress);
 		if (responds) strainNormal(p, response.freeStrain);
 		if constexpr (hoop) advanceHoop(p, G[dim * dim]);
-		advanceDeformation<dim>(G, control.largeStrain, F);
-		if (energies) work->add(F, sigma, internal, response, energies[t]);
+		if (energies) work->add(now, sigma, internal, response, energies[t]);
 		for (int k = 0; k < N; ++k)
 			P.stress[std::size_t(k)][p] = sigma[k];
 		for (int k = 0; k < columns; ++k)
 			P.internal[std::size_t(k)][p] = internal[k];
 		for (int k = 0; k < dim * dim; ++k)
-			P.deformation[std::size_t(k)][p] = F[k];
-		if (!(determinant<dim>(F) > 0)) return report.fail(p, noVolume);
-		checkCompression(p, determinant<dim>(F), traceOf(sigma), leastTrace(law), report);
+			P.deformation[std::size_t(k)][p] = now[k];
+		checkCompression(p, determinant<dim>(now), traceOf(sigma), leastTrace(law), report);
 	}
 };
 

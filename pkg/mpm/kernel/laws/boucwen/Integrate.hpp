@@ -44,6 +44,9 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Pack<W, T>* stra
 	const double  perFlow = ErrorBound::perFlow(law), perFlow2 = perFlow * perFlow;
 	const bool    rough     = law.n < 5 && law.n != std::floor(law.n);
 	const bool    remembers = options && law.remembers(), paper = options && law.paper();
+	// the hysteretic measure e grows without flow as well; the stress error that an error of e makes, over that error
+	constexpr int eAt       = options ? Y::e : 0;
+	const double  eToStress = options && law.hysteretic() ? sy * (law.strengthDegradation + law.stiffnessDegradation + law.pinching * law.pinchingRate) : 0;
 	// up to this f/sigma_y, H1 H2 is below the threshold of flow
 	const double small = options || W == 1 || isHalfOrWhole(law.n) ? 0 : std::pow(leastFlow * tolerance / std::max(1., law.gamma - law.beta), 1 / law.n);
 	Pack<W, T>   De[N], stepStress[N], stepStrain[N], dy1[size], dy2[size], next[size], mDe1, mDe2, radius, done {}, step, uncut;
@@ -158,6 +161,10 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Pack<W, T>* stra
 					     part = k < N ? elastic * valueOf(stepStress[k < N ? k : 0][l]) : 0, sum = second + first - part;
 				difference2 += difference * difference, flow2 += sum * sum, length2 += .25 * part * part;
 			}
+			if constexpr (options) {
+				const double e1 = eToStress * valueOf(dy1[eAt][l]), e2 = eToStress * valueOf(dy2[eAt][l]);
+				difference2 += (e2 - e1) * (e2 - e1), flow2 += (e1 + e2) * (e1 + e2);
+			}
 			// the difference alone misses a flow that vanishes inside the sub-step, between loading and unloading
 			const bool   kink     = (mDe1[l] < 0) != (mDe2[l] < 0);
 			const double error2   = (kink & (flow2 > difference2)) ? flow2 : difference2;
@@ -210,6 +217,10 @@ void boucWenIntegrate(const BoucWen& law, const Hooke& C, const Pack<W, T>* stra
 				for (int s = 2; s < CashKarp::stages; ++s)
 					sum += CashKarp::b[s] * slopes[s][k][l], error += CashKarp::d[s] * valueOf(slopes[s][k][l]);
 				next[k][l] = y[k][l] + sum;
+				if (options && k == eAt) {
+					error *= eToStress;
+					error2 += error * error, flow2 += eToStress * valueOf(sum) * eToStress * valueOf(sum);
+				}
 				if (k >= 2 * N) continue;
 				const double part = k < N ? elastic * valueOf(stepStress[k < N ? k : 0][l]) : 0, flow = valueOf(sum) - part;
 				error2 += error * error, flow2 += flow * flow, length2 += part * part;

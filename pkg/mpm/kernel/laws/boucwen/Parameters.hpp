@@ -21,7 +21,7 @@ tangent is elastic while f is small and plastic as f approaches sigma_y; there i
 
 Options, each of which is off by default and then costs nothing (doc/law.md has their equations):
   isotropic hardening       sigma_y becomes radius(p)
-  strength degradation      H1 is multiplied by nu = 1 + d_nu e, with e the integral of f lambda' over sigma_y^2 / E
+  strength degradation      H1 is multiplied by nu = 1 + d_nu e, with e the integral of f lambda', or of xi : eps', over sigma_y^2 / E
   stiffness degradation     D is divided by 1 + d_eta e, as far as the second law allows
   pinching                  slip on loading, about f = level sigma_y, that grows with e
   reloading                 below f_rev, from which the point had unloaded, H1 shrinks by ((f - f_0)/(f_rev - f_0))^r */
@@ -29,6 +29,9 @@ struct BoucWen : LawDefaults {
 	/* The argument of the sign in H2: a^T D eps', or eps^T sigma' as eq. 26 has it in print, with sigma' = D eps' because the
 	tangent is not known yet. The latter breaks f <= sigma_y and lambda' >= 0; it serves for comparison only. */
 	enum class LoadingRule { normal, paper };
+	/* The measure e of degradation: plastic work, or the work of xi on the whole strain, of which elastic unloading takes back a part. The
+	latter is Baber and Noori's e = int z du; it heals on unloading, and its dissipation may be negative for a while. */
+	enum class DegradationMeasure { plastic, hysteretic };
 
 	double             yieldStress = 0;       // sigma_y [Pa]
 	double             n           = 10;      // sharpness of the knee, > 0
@@ -44,19 +47,22 @@ struct BoucWen : LawDefaults {
 	double             pinchingLevel        = 0;  // f/sigma_y about which it acts, 0 to below 1
 	double             pinchingWidth        = .2; // width of that, over sigma_y, > 0
 	double             reloading            = 0;  // r: 0 off; 1 and more smooth, infinity elastic reloading
+	DegradationMeasure degradationMeasure   = DegradationMeasure::plastic;
 
 	bool operator==(const BoucWen& o) const
 	{
 		return yieldStress == o.yieldStress && n == o.n && beta == o.beta && gamma == o.gamma && hardening == o.hardening && tolerance == o.tolerance
 		       && loadingRule == o.loadingRule && isotropic == o.isotropic && strengthDegradation == o.strengthDegradation
 		       && stiffnessDegradation == o.stiffnessDegradation && pinching == o.pinching && pinchingRate == o.pinchingRate
-		       && pinchingLevel == o.pinchingLevel && pinchingWidth == o.pinchingWidth && reloading == o.reloading;
+		       && pinchingLevel == o.pinchingLevel && pinchingWidth == o.pinchingWidth && reloading == o.reloading
+		       && degradationMeasure == o.degradationMeasure;
 	}
 
 	/* Factor on D that bounds the tangent: unloading is stiffer than elastic where gamma > beta. */
 	double stiffnessBound(const Hooke&) const { return 1 + std::max(0., gamma - beta); }
 
 	bool degrades() const { return strengthDegradation != 0 || stiffnessDegradation != 0 || pinching != 0; }
+	bool hysteretic() const { return degradationMeasure == DegradationMeasure::hysteretic; }
 	bool remembers() const { return reloading != 0; }
 	bool paper() const { return loadingRule == LoadingRule::paper; }
 	bool plain() const { return !isotropic.active() && !degrades() && !remembers() && !paper(); }
@@ -100,6 +106,8 @@ inline void BoucWen::check(const Hooke& C, Check& c) const
 	c.finiteNotNegative("strengthDegradation", strengthDegradation);
 	c.require(stiffnessDegradation >= 0 && stiffnessDegradation <= 2, "stiffnessDegradation", stiffnessDegradation,
 		"give 0 to 2: beyond, a bar at yield would release more energy than the flow dissipates");
+	c.require(!hysteretic() || degrades(), "degradationMeasure", "'hysteretic'",
+		"give strengthDegradation, stiffnessDegradation or pinching that it measures, or keep 'plastic'");
 	c.require(pinching >= 0 && pinching < 1, "pinching", pinching, "give 0 to below 1: at 1 loading finds no stiffness");
 	c.require(pinchingRate > 0 && std::isfinite(pinchingRate), "pinchingRate", pinchingRate, "give a positive number");
 	c.require(pinchingLevel >= 0 && pinchingLevel < 1, "pinchingLevel", pinchingLevel, "give 0 to below 1, a part of the yield stress");

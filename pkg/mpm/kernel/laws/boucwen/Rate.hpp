@@ -114,12 +114,28 @@ void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloadi
 		flowRatio(law, y, De, reloading, f, radius, mDe, H);
 	else
 		forLanes<W>([&](int l) { H[l] *= mDe[l] > 0 ? loading : unloading; });
+	const double unit     = C.young / (sy * sy);
+	const bool   degrades = law.degrades(), hysteretic = options && law.hysteretic();
+	auto         stored = [&](int l) { // twice the elastic energy, of the initial compliance
+                T sigma[N];
+                for (int k = 0; k < N; ++k)
+                        sigma[k] = y[k][l];
+                return complianceProduct<S>(C, sigma);
+	};
+	if (hysteretic)
+		forLanes<W>([&](int l) {
+			T xi[N], e[N];
+			backStressFree<S>(y, l, xi);
+			for (int k = 0; k < N; ++k)
+				e[k] = strain[k][l];
+			const T work = unit * dot<S>(xi, e), grows = law.stiffnessDegradation * work;
+			dy[options ? Y::e : 0][l] = work, dy[options ? Y::compliance : 0][l] = grows;
+			dy[Y::dissipation][l] = -.5 * grows * stored(l);
+		});
 	// no direction at f = 0; elastic within the tolerance
 	auto flows = [&](int l) { return (z[l] > 1e-12) & (abs(H[l]) > least); };
 	if (!anyLane<W>(flows)) return;
 
-	const double unit     = C.young / (sy * sy);
-	const bool   degrades = law.degrades();
 	forLanes<W>([&](int l) {
 		T          xi[N], m[N], Dm[N], b[N];
 		const bool flow      = flows(l);
@@ -129,17 +145,14 @@ void boucWenRate(const BoucWen& law, const Hooke& C, double small, const Reloadi
 		const T q = flow ? H[l] * mDe[l] / (flow ? softening * dot<S>(m, Dm) + hardening * f2 : T(1)) : T(0);
 		for (int k = 0; k < N; ++k)
 			dy[k][l] -= q * softening * Dm[k], dy[Y::eta + k][l] = q * law.hardening * b[k];
-		dy[Y::p][l] = q * f[l], dy[Y::dissipation][l] = q * f2;
-		if constexpr (options) {
+		dy[Y::p][l] = q * f[l], dy[Y::dissipation][l] += q * f2;
+		if (options && !hysteretic) {
 			// the compliance may grow by no more than the plastic work pays for
-			T sigma[N];
-			for (int k = 0; k < N; ++k)
-				sigma[k] = y[k][l];
-			const T heat = degrades ? q * f2 : T(0), stored = complianceProduct<S>(C, sigma);
-			const T most  = stored > 0 ? 2 / (stored > 0 ? stored : T(1)) : T(0);
-			const T grows = std::min<T>(law.stiffnessDegradation * unit, most) * heat;
-			dy[Y::e][l] = unit * heat, dy[Y::compliance][l] = grows;
-			dy[Y::dissipation][l] = std::max<T>(0., q * f2 - .5 * grows * stored);
+			const T heat = degrades ? q * f2 : T(0), twice = stored(l);
+			const T most              = twice > 0 ? 2 / (twice > 0 ? twice : T(1)) : T(0);
+			const T grows             = std::min<T>(law.stiffnessDegradation * unit, most) * heat;
+			dy[options ? Y::e : 0][l] = unit * heat, dy[options ? Y::compliance : 0][l] = grows;
+			dy[Y::dissipation][l] = std::max<T>(0., q * f2 - .5 * grows * twice);
 		}
 	});
 }
