@@ -27,7 +27,7 @@ near('a straight line: modulus', line.parameters['young']/best, 1, 1e-9)
 near('standard error', line.standardErrors['young']/numpy.sqrt(rest @ rest/(len(e) - 1)/(e @ e)), 1, 1e-6)
 near('residual', line.residual/numpy.sqrt(numpy.mean(rest**2)), 1, 1e-9)
 near('residuals', line.residuals[0][:, 0, 0]/1e6, -rest/1e6, 1e-6)
-equal('the material itself stays', line.material.young == best or line.material.young, line.parameters['young'])
+equal('the copy of the material has it', line.material.young, line.parameters['young'])
 # two tests of another accuracy: weighted means
 two = mpm.calibrate(FrictMat(young=100e9, poisson=.3, density=7850), [{'strain': e, 'stress': 200e9*e, 'error': 1e6}, {'strain': e, 'stress': 230e9*e, 'error': 2e6}], ['young'])
 near('weights', two.parameters['young']/206e9, 1, 1e-9)
