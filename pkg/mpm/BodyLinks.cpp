@@ -51,7 +51,8 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 	const int* const  ids       = points.id.data();
 	const auto* const materials = all.materials.data();
 
-	const Real* const mass = points.mass.data();
+	const Real* const mass    = points.mass.data();
+	const bool        rotates = !points.angularVelocity.empty();
 
 	bool refused  = false;
 	Real offPlane = 0;
@@ -74,7 +75,7 @@ template <int dim> void BodyLinks::readStates(Scene& scene, MpmPoints& all, Chan
 		}
 		const bool before = !points.inContact.empty() && points.inContact[p]; // then it shows another velocity than its own
 		Real       gone   = 0;
-		if (before || points.energies.started) takeVelocity(points, p, before, velocity);
+		if (before || rotates || points.energies.started) takeVelocity(points, p, before, state);
 		for (int d = 0; d < dim; ++d) {
 			f[d][p] = force[d];
 			if (!before) v[d][p] = velocity[d];
@@ -115,15 +116,21 @@ void BodyLinks::refuseBody(Scene& scene, const Body& body) const
 }
 
 /* The change that a script has made to a body's velocity is a change of the point's own velocity; the kinetic energy that it adds
-is external work. */
-void BodyLinks::takeVelocity(mpm::Points& points, std::size_t p, bool touched, const Vector3r& shown) const
+is external work. The solver finds the rotation of a free point that has been given another velocity. */
+void BodyLinks::takeVelocity(mpm::Points& points, std::size_t p, bool touched, const State& state) const
 {
+	const Vector3r& shown   = state.vel;
+	bool            changed = false;
 	for (std::size_t d = 0; d < points.force.size(); ++d) {
 		Real&      v   = points.velocity[d][p];
 		const Real old = v;
 		v              = touched ? old + (shown[int(d)] - points.contactVelocity[d][p]) : shown[int(d)];
 		points.energies.external += .5 * points.mass[p] * (old * old - v * v);
+		changed |= v != old;
 	}
+	if (!changed || points.angularVelocity.empty() || (state.blockedDOFs & 7)) return;
+	points.spinUnknown.resize(points.count(), 0);
+	points.spinUnknown[p] = 1;
 }
 
 /* Complains of the first body whose force, position or velocity cannot be. */

@@ -40,7 +40,7 @@ private:
 
 	bool                    link(Scene& scene, MpmPoints& points, std::size_t p);
 	template <int dim> void readStates(Scene& scene, MpmPoints& points, Changes& changes);
-	void                    takeVelocity(mpm::Points& points, std::size_t p, bool touched, const Vector3r& shown) const;
+	void                    takeVelocity(mpm::Points& points, std::size_t p, bool touched, const State& state) const;
 	void                    refuseStates(Scene& scene, const mpm::Points& points, int dim) const;
 	void                    refuseBody(Scene& scene, const Body& body) const;
 	void                    readContact(Scene& scene, mpm::Points& points, std::size_t p, bool touched, State& state) const;

@@ -43,6 +43,19 @@ namespace {
 	{
 		return choose<mpm::Scheme>("scheme", name, { { "USF", mpm::Scheme::usf }, { "USL", mpm::Scheme::usl }, { "MUSL", mpm::Scheme::musl } });
 	}
+	enum class TransferKind { automatic, flip, affine };
+	TransferKind transferOf(const std::string& name)
+	{
+		return choose<TransferKind>(
+			"transfer", name, { { "auto", TransferKind::automatic }, { "flip", TransferKind::flip }, { "affine", TransferKind::affine } });
+	}
+	/* Linear functions and GIMP shake the rotation where points cross cells, USF strains with velocities of half a step before, and a coarse
+	block that slides on grains or facets begins to flutter. */
+	bool isAffine(TransferKind transfer, mpm::ShapeKind shape, mpm::Scheme scheme, bool contacts)
+	{
+		if (transfer != TransferKind::automatic) return transfer == TransferKind::affine;
+		return (shape == mpm::ShapeKind::quadratic || shape == mpm::ShapeKind::cubic) && scheme != mpm::Scheme::usf && !contacts;
+	}
 } // namespace
 
 void MpmEngine::action()
@@ -176,6 +189,7 @@ mpm::StepControl MpmEngine::prepare()
 		control.gravity[d] = gravity[int(d)];
 	control.damping = damping, control.flip = flip;
 	control.scheme      = schemeOf(scheme);
+	control.affine      = isAffine(transferOf(transfer), shapeOf(shape), control.scheme, m_order.hasContacts());
 	control.largeStrain = largeStrain, control.thinning = thinning;
 	control.trackEnergy = scene->trackEnergy, control.meanDilatation = meanDilatation, control.fullMass = fullMass;
 	control.threads = ompThreads > 0 ? ompThreads : omp_get_max_threads();
@@ -331,8 +345,8 @@ void MpmEngine::forgetStep()
 /* Whether the scene has changed in something that the stable step depends on, other than the motion of the points. */
 bool MpmEngine::stiffnessChanged(const mpm::StepControl& control)
 {
-	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(m_points->count()), Real(analysisOf(analysis)), Real(shapeOf(shape)),
-		cellSize };
+	std::vector<Real> now { Real(control.scheme), Real(control.fullMass), Real(control.affine), Real(m_points->count()), Real(analysisOf(analysis)),
+		Real(shapeOf(shape)), cellSize };
 	const auto&       kernelWalls = m_points->runtime.walls;
 	for (const double cell : mpm::makeGeometry<3>(cellSize, kernelWalls).cell)
 		now.push_back(std::round(20 * std::log(cell / cellSize))); // walls stretch cells; in steps of 5 %

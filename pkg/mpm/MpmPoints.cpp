@@ -124,6 +124,7 @@ void MpmPoints::setMass(std::size_t p, Real mass)
 	if (points.energies.started)
 		for (const mpm::Column& v : points.velocity)
 			points.energies.external -= .5 * (mass - now) * v[p] * v[p];
+	if (points.energies.started) points.energies.external -= (mass / now - 1) * rotation(p).energy;
 	now = mass;
 	if (runtime.solver) runtime.solver->pointsChanged(); // the least mass of a node follows that of the points
 }
@@ -193,6 +194,7 @@ void MpmPoints::dropErased(const BodyContainer& bodies)
 			Real                kinetic = 0;
 			for (const mpm::Column& v : points.velocity)
 				kinetic += .5 * points.mass[p] * v[p] * v[p];
+			kinetic += rotation(p).energy;
 			energies.external += kinetic + elastic + hardening;
 			energies.elastic -= elastic, energies.hardening -= hardening;
 		}
@@ -631,6 +633,28 @@ py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strai
 	return result;
 }
 
+mpm::PointRotation MpmPoints::rotation(std::size_t p) const
+{
+	if (runtime.solver) return runtime.solver->rotation(p);
+	if (points.spread.size() != 3) return {};
+	return mpm::PointRotation::of(points, p, { points.spread[0], points.spread[1], points.spread[2] });
+}
+
+Vector3r MpmPoints::angularMomentum(const Vector3r& about)
+{
+	const std::lock_guard<std::mutex> lock(mutex);
+	finish();
+	Vector3r sum = Vector3r::Zero();
+	for (std::size_t p = 0; p < points.count(); ++p) {
+		const Vector3r x(points.position[0][p], points.position[1][p], points.position[2][p]);
+		const Vector3r v(points.velocity[0][p], points.velocity[1][p], points.velocity[2][p]);
+		sum += points.mass[p] * (x - about).cross(v);
+		const auto carried = rotation(p).momentum;
+		sum += Vector3r(carried[0], carried[1], carried[2]);
+	}
+	return sum;
+}
+
 py::object MpmPoints::array(const std::string& name)
 {
 	const std::lock_guard<std::mutex> lock(mutex);
@@ -654,7 +678,7 @@ py::object MpmPoints::array(const std::string& name)
 		throw std::invalid_argument(
 			"mpm.array('" + name
 			+ "'): no such quantity; choose 'id', 'material', 'group', 'position', 'displacement', 'velocity', 'mass', 'volume', 'size', 'stress', "
-			  "'strain', 'backStress', 'F', 'plasticStrain', 'dissipation' or 'vonMises'");
+			  "'strain', 'backStress', 'F', 'plasticStrain', 'dissipation', 'vonMises' or 'angularVelocity'");
 	double*          out;
 	const py::object bytes = newBytes(n * width, out);
 	for (std::size_t k = 0; k < n; ++k)
@@ -680,6 +704,12 @@ MpmPoints::Quantity MpmPoints::quantity(const std::string& name) const
 	};
 	if (name == "position") return vector(points.position);
 	if (name == "velocity") return vector(points.velocity);
+	if (name == "angularVelocity")
+		return { 3, [this](std::size_t p, Real* out) {
+				const std::size_t turns = points.angularVelocity.size();
+				for (std::size_t d = 0; d < 3; ++d)
+					out[d] = turns == 3 ? points.angularVelocity[d][p] : turns == 1 && d == 2 ? points.angularVelocity[0][p] : 0;
+			} };
 	if (name == "displacement") {
 		const shared_ptr<BodyContainer> bodies = Omega::instance().getScene()->bodies;
 		return { 3, [this, bodies](std::size_t p, Real* out) {

@@ -45,6 +45,8 @@ template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Poin
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("inContact", points.inContact) & make_nvp("contactVelocity", points.contactVelocity);
+	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("meanSpin", points.meanSpin) & make_nvp("spinUnknown", points.spinUnknown);
+	archive& make_nvp("spread", points.spread);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)
@@ -159,6 +161,11 @@ public:
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
 	::boost::python::object array(const std::string& name);
 
+	/* For py/mpm: angular momentum of all points about a place [kg m2/s]. */
+	Vector3r angularMomentum(const Vector3r& about);
+	/* Angular momentum and energy of the rotation that a point carries; a loaded scene has no solver before its first step. */
+	mpm::PointRotation rotation(std::size_t p) const;
+
 	void preSave(MpmPoints&);
 	void postLoad(MpmPoints&);
 
@@ -189,6 +196,7 @@ public:
 		.def_readonly("groups", &MpmPoints::groups, "Names of groups 1, 2, ... of points [-].")
 		.def("ofScene", &MpmPoints::ofScene, "Points of the scene in hand, new ones if it has none; :yref:`mpm.fill` calls it.").staticmethod("ofScene")
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
+		.def("angularMomentum", &MpmPoints::angularMomentum, "Angular momentum of all points about a place [kg m2/s]; :yref:`mpm.angularMomentum` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
 		.def("__len__", &MpmPoints::count)

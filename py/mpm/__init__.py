@@ -10,7 +10,7 @@
 	sigma = mpm.array('stress')
 
 fill makes points of a region, points makes them from arrays, setStress gives them a stress to start with, traction loads a face; array
-looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single point through strains
+looks at them, color shows them in the 3D view, angularMomentum sums it, criticalTimeStep says how far a step may go; drive takes a single point through strains
 (PointHistory), calibrate fits a material to tests (Calibration, Undetermined), readStl reads a surface to fill, readMesh a mesh. Classes:
 MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the materials BoucWenMat, J2Mat, DruckerPragerMat, MohrCoulombMat. help() of
 any of them says more.
@@ -26,12 +26,12 @@ from .calibrate import Calibration, Undetermined, calibrate
 from .driver import PointHistory, drive
 from .load import traction
 from .mesh import readMesh
-from .points import array, criticalTimeStep, fill, points, setStress
+from .points import angularMomentum, array, criticalTimeStep, fill, points, setStress
 from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['Calibration', 'PointHistory', 'Undetermined', 'array', 'calibrate', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
+__all__ = ['Calibration', 'PointHistory', 'Undetermined', 'angularMomentum', 'array', 'calibrate', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
 
 
 def __dir__(): return __all__

@@ -166,13 +166,25 @@ def array(name):
 
 	:param str name: 'id', 'material' (its index in O.materials), 'group' (its number, 0: none) (N,), 'position' [m], 'displacement' (from the place it was
 		filled at, NaN for points without bodies) [m], 'velocity' [m/s] (N,3), 'mass' [kg], 'volume' [m3], 'size' (side of the undeformed point) [m], 'plasticStrain' [-],
-		'vonMises' [Pa], 'dissipation' (heat per undeformed volume [J/m3], kept while O.trackEnergy) (N,), 'stress',
+		'vonMises' [Pa], 'angularVelocity' (with MpmEngine.transfer = 'affine', else 0; (N,3)) [rad/s], 'dissipation' (heat per undeformed volume [J/m3], kept while O.trackEnergy) (N,), 'stress',
 		'backStress' [Pa], 'strain', 'F' [-] (N,3,3); see :yref:`MpmState` for their meaning
 	:raises ValueError: if there is no such quantity
 	"""
 	if not isinstance(name, str): raise ValueError("mpm.array: name = %r: give the name of a quantity, e.g. 'stress'" % (name,))
 	data, kind, shape = _points().array(name)
 	return numpy.frombuffer(data, dtype=kind).reshape(shape)
+
+
+def angularMomentum(about=(0, 0, 0)):
+	"""Angular momentum of all material points about a place [kg m2/s], as a Vector3.
+
+	sum m (x - about) x v and, with MpmEngine.transfer = 'affine', the rotation that the points carry, sum J W: J = m (D_a + D_b)
+	about the axis normal to a and b, D = h^2/3 with 'cubic' functions, h^2/4 with 'quadratic' ones, and W their
+	'angularVelocity'. Along the axis of a ring (analysis 'axisymmetric') it has no meaning.
+
+	:param about: the place [m]
+	"""
+	return _points().angularMomentum(Vector3(*about))
 
 
 def criticalTimeStep():

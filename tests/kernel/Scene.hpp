@@ -12,21 +12,24 @@ constexpr std::array<Scheme, 3>    allSchemes { Scheme::usf, Scheme::usl, Scheme
 constexpr std::array<Analysis, 4>  allAnalyses { Analysis::uniaxial, Analysis::planeStress, Analysis::planeStrain, Analysis::solid }; // Cartesian ones
 struct Method {                                                                                                                       // of making a step
 	Scheme scheme;
-	bool   fullMass;
+	bool   fullMass, affine;
 
-	constexpr Method(Scheme s, bool full = false)
+	constexpr Method(Scheme s, bool full = false, bool rotates = false)
 	    : scheme(s)
 	    , fullMass(full)
+	    , affine(rotates)
 	{
 	}
-	void set(StepControl& control) const { control.scheme = scheme, control.fullMass = fullMass; }
+	void set(StepControl& control) const { control.scheme = scheme, control.fullMass = fullMass, control.affine = affine; }
 };
 constexpr std::array<Method, 4> allMethods { Scheme::usf, Scheme::usl, Scheme::musl, Method { Scheme::musl, true } };
+constexpr std::array<Method, 4> affineMethods { Method { Scheme::usf, false, true }, { Scheme::usl, false, true }, { Scheme::musl, false, true },
+	{ Scheme::musl, true, true } };
 inline const char*              name(ShapeKind s) { return std::array<const char*, 4> { "linear", "gimp", "quadratic", "cubic" }[std::size_t(s)]; }
 inline const char*              name(Scheme s) { return std::array<const char*, 3> { "USF", "USL", "MUSL" }[std::size_t(s)]; }
 inline const char* name(Analysis a) { return std::array<const char*, 5> { "uniaxial", "plane stress", "plane strain", "axisymmetric", "3D" }[std::size_t(a)]; }
 
-inline std::string name(Method m) { return std::string(name(m.scheme)) + (m.fullMass ? ", full mass" : ""); }
+inline std::string name(Method m) { return std::string(name(m.scheme)) + (m.fullMass ? ", full mass" : "") + (m.affine ? ", affine" : ""); }
 
 /* A scene of the kernel alone, for tests; it replaces the engine in YADE. The solver refers to points, laws and walls. They
 keep their addresses when the scene is moved, so that a function may return a scene. */

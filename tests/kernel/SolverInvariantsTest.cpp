@@ -23,10 +23,11 @@ template <class Visit> void forEveryMethod(Visit&& visit)
 {
 	for (Analysis analysis : allAnalyses)
 		for (ShapeKind shape : allShapes)
-			for (Method method : allMethods) {
-				SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(method));
-				visit(analysis, shape, method);
-			}
+			for (const auto& methods : { allMethods, affineMethods })
+				for (Method method : methods) {
+					SCOPED_TRACE(std::string(name(analysis)) + ' ' + name(shape) + ' ' + name(method));
+					visit(analysis, shape, method);
+				}
 }
 
 /* A free body of scattered points, under stress and in motion; two materials, one of them hysteretic. */

@@ -123,6 +123,30 @@ TEST(LongStableStepTest, RunsOnBothSidesOfIt)
 	}
 }
 
+/* With the affine transfer likewise. Its Q is nearer to 1 for shear alone, and the limit is that of compression: no more than 4 % below FLIP's. */
+TEST(LongStableStepTest, AffineTransfer)
+{
+	const double h = .25;
+	for (const StabilityCase& k : { StabilityCase { "plate off the grid", Analysis::planeStrain, { 2, 1.5, 0 }, .05, false, 1 },
+		     StabilityCase { "plate in a corner", Analysis::planeStress, { 2, 1.5, 0 }, 0, true, 1 },
+		     StabilityCase { "block", Analysis::solid, { 1, 1, .75 }, .05, false, 1 } })
+		for (ShapeKind shape : allShapes)
+			for (Method method : { Method(Scheme::usl, false, true), Method(Scheme::musl, false, true), Method(Scheme::musl, true, true) }) {
+				SCOPED_TRACE(std::string(k.name) + ' ' + name(shape) + ' ' + name(method));
+				Scene s = body(k.analysis, .3, h, k.size, k.shift);
+				if (k.walls) s.walls = { Scene::wall(0, 1, 0, Wall::Kind::fixed), Scene::wall(1, 1, 0, Wall::Kind::slip) };
+				s.start(k.analysis, shape, h);
+				const double limit = s.solver->criticalTimeStep(method.scheme, method.fullMass, true);
+				const double flip  = s.solver->criticalTimeStep(method.scheme, method.fullMass);
+				const int    steps = k.analysis == Analysis::solid ? 300 : 1000;
+				const bool   usl   = method.scheme == Scheme::usl;
+				EXPECT_LE(limit, flip * (1 + 1e-3));
+				EXPECT_GT(limit, .8 * flip);
+				EXPECT_LT(growth(s, k.analysis, shape, h, method, (usl && shape == ShapeKind::gimp ? .7 : .9) * limit, steps, 1e-7 * c), 6);
+				EXPECT_GT(growth(s, k.analysis, shape, h, method, 1.2 * limit, steps, 1e-7 * c), 100);
+			}
+}
+
 /* The limit in a bar, wherever its free end is in a cell: what doc/accuracy says of it. */
 TEST(LongStableStepTest, BulkAndEdge)
 {

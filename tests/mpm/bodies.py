@@ -68,7 +68,7 @@ found = state()
 same('ids keep their order while points are sorted anew', found['id'], order)
 same('and are the bodies', found['id'], ids)
 check('the scene is one that yields', found['plasticStrain'].max() > 1e-4, found['plasticStrain'].max())
-shapes = {'id': (), 'position': (3, ), 'velocity': (3, ), 'mass': (), 'volume': (), 'stress': (3, 3), 'strain': (3, 3), 'backStress': (3, 3), 'F': (3, 3), 'plasticStrain': (), 'vonMises': ()}
+shapes = {'id': (), 'position': (3, ), 'velocity': (3, ), 'mass': (), 'volume': (), 'stress': (3, 3), 'strain': (3, 3), 'backStress': (3, 3), 'F': (3, 3), 'plasticStrain': (), 'vonMises': (), 'angularVelocity': (3, )}
 equal('shapes', {k: v.shape for k, v in found.items()}, {k: (64, ) + v for k, v in shapes.items()})
 check('types', all(v.dtype == ('int64' if k == 'id' else 'float64') for k, v in found.items()))
 states = [O.bodies[i].state for i in ids]

@@ -58,7 +58,7 @@ def momentum():
 
 def state():
 	"""All that a scene's points are, by name."""
-	return {name: mpm.array(name) for name in ('id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain', 'vonMises')}
+	return {name: mpm.array(name) for name in ('id', 'position', 'velocity', 'mass', 'volume', 'stress', 'strain', 'backStress', 'F', 'plasticStrain', 'vonMises', 'angularVelocity')}
 
 
 def each_step(call):

@@ -13,6 +13,8 @@ Large strain, after Hughes & Winget, IJNME 15 (1980) 1862: with A = G (I + G/2)^
   strain increment  sym A       (zero for every rigid motion)
   rotation          Q = (I - W/2)^-1 (I + W/2),  W = skew A   (exact for every rigid motion)
 Small strain: sym G and no rotation.
+The strain increment is that of the middle of the step; turnToEnd() turns it on by half the rotation, to the axes of the rotated stress. Without,
+the stress of a vibration lags behind its strain by that angle, which feeds the vibration of a body that spins for many turns.
 Strains carry engineering shear, in the components of the stress state. */
 template <class S> struct Increment;
 
@@ -20,6 +22,7 @@ template <> struct Increment<Uniaxial> {
 	double strain[1];
 
 	void small(const double* G) { strain[0] = G[0]; }
+	void turnToEnd() {}
 	void large(const double* G) { strain[0] = G[0] / (1 + .5 * G[0]); }
 	void rotate(double*) const {}
 };
@@ -36,6 +39,14 @@ namespace detail {
 
 	struct PlaneIncrement {
 		double xx, yy, gamma, cosine = 1, sine = 0;
+
+		void turnToEnd()
+		{
+			const double cc = .5 * (1 + cosine), ss = .5 * (1 - cosine), cs = .5 * sine; // of half the angle
+			const double x = xx, y = yy, xy = .5 * gamma;
+			xx = cc * x + ss * y - 2 * cs * xy, yy = ss * x + cc * y + 2 * cs * xy;
+			gamma = 2 * (cs * (x - y) + (cc - ss) * xy);
+		}
 
 		void small(const double* G) { xx = G[0], yy = G[3], gamma = G[1] + G[2]; }
 		void large(const double* G)
@@ -58,6 +69,7 @@ template <> struct Increment<PlaneStress> {
 	void small(const double* G) { plane.small(G), set(); }
 	void large(const double* G) { plane.large(G), set(); }
 	void rotate(double* s) const { detail::rotateInPlane(plane.cosine, plane.sine, s[0], s[1], s[2]); }
+	void turnToEnd() { plane.turnToEnd(), set(); }
 
 private:
 	void set() { strain[0] = plane.xx, strain[1] = plane.yy, strain[2] = plane.gamma; }
@@ -70,6 +82,11 @@ template <> struct Increment<PlaneStrain> {
 	void small(const double* G) { plane.small(G), set(); }
 	void large(const double* G) { plane.large(G), set(); }
 	void rotate(double* s) const { detail::rotateInPlane(plane.cosine, plane.sine, s[0], s[1], s[3]); }
+	void turnToEnd()
+	{
+		plane.turnToEnd();
+		strain[0] = plane.xx, strain[1] = plane.yy, strain[3] = plane.gamma;
+	}
 
 private:
 	void set() { strain[0] = plane.xx, strain[1] = plane.yy, strain[2] = 0, strain[3] = plane.gamma; }
@@ -94,6 +111,15 @@ template <> struct Increment<Solid> {
 		const Matrix                   W = .5 * (A - A.transpose());
 		Q                                = (I - .5 * W).inverse() * (I + .5 * W);
 		set(A);
+	}
+	void turnToEnd() // the mean of none and all of the rotation: half of it, to second order
+	{
+		double turned[6];
+		for (int k = 0; k < 6; ++k)
+			turned[k] = k < 3 ? strain[k] : .5 * strain[k];
+		rotate(turned);
+		for (int k = 0; k < 6; ++k)
+			strain[k] = .5 * (strain[k] + (k < 3 ? turned[k] : 2 * turned[k]));
 	}
 	void rotate(double* s) const
 	{

@@ -63,7 +63,11 @@ std::string faultOf(const Points& points, std::size_t materials)
 				optional("inContact", points.inContact.size(), n), optional("group", points.group.size(), n),
 				number("initialStress", points.initialStress.size(), { 0, 6 }), lengths("initialStress", points.initialStress, n),
 				number("contactVelocity", points.contactVelocity.size(), { points.inContact.empty() ? 0 : dim }),
-				lengths("contactVelocity", points.contactVelocity, n));
+				lengths("contactVelocity", points.contactVelocity, n),
+				number("angularVelocity", points.angularVelocity.size(), { 0, dim == 3 ? 3u : dim - 1 }),
+				lengths("angularVelocity", points.angularVelocity, n), number("spread", points.spread.size(), { 0, 3 }),
+				number("meanSpin", points.meanSpin.size(), { points.angularVelocity.size() }), lengths("meanSpin", points.meanSpin, n),
+				optional("spinUnknown", points.spinUnknown.size(), n));
 	if (!fault.empty()) return fault;
 	if (points.internal.size() > std::size_t(maxInternals(6)))
 		return "internal has " + std::to_string(points.internal.size()) + " columns, more than any law keeps";
@@ -124,9 +128,9 @@ std::string nonFiniteValue(const Points& points)
 			std::make_pair("thickness", &points.thickness), std::make_pair("thicknessStretch", &points.thicknessStretch),
 			std::make_pair("dissipation", &points.dissipation), std::make_pair("freeStrain", &points.freeStrain) })
 		look(name, *column);
-	for (const auto& [name, columns] :
-		{ std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity), std::make_pair("stress", &points.stress),
-			std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation) })
+	for (const auto& [name, columns] : { std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity),
+		     std::make_pair("stress", &points.stress), std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation),
+		     std::make_pair("angularVelocity", &points.angularVelocity), std::make_pair("meanSpin", &points.meanSpin) })
 		for (std::size_t k = 0; k < columns->size(); ++k)
 			look(std::string(name) + "[" + std::to_string(k) + "]", (*columns)[k]);
 	return fault;

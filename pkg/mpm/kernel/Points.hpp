@@ -36,7 +36,8 @@ struct Traction;
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress),
-prescribedDofs (no prescribed motion), inContact, contactVelocity, spin, torque (no contacts).
+prescribedDofs (no prescribed motion), inContact, contactVelocity, spin, torque (no contacts), angularVelocity,
+meanSpin, spread, spinUnknown (transfer of FLIP).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
@@ -57,6 +58,10 @@ struct Points {
 	std::vector<std::uint8_t> inContact;                      // whether force follows the position, as a contact's does; set anew at every step
 	Columns                   contactVelocity, spin;          // of a point in contact in the last step: the velocity that moved it, half its curl
 	Columns                   torque;                         // on a point in contact [Nm]; like spin three components, z alone in the plane
+	Columns                   angularVelocity;                // affine transfer: W_p [rad/s], components as those of spin
+	Columns                   meanSpin;                       // likewise: mean spin of the material, StressUpdate.hpp [rad/s]
+	Column                    spread;                         // likewise, no column of points: sum N (x_i - x_p)^2 along each axis [m2], 0: differs
+	std::vector<std::uint8_t> spinUnknown;                    // points whose W_p has to be found from the velocities; empty: none
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
 
@@ -70,7 +75,7 @@ struct Points {
 		for (Column* c : { &mass, &volume0, &size, &thickness })
 			visit(*c);
 		for (Columns* cs : { &position, &velocity, &stress, &internal, &deformation, &initialStress, &displacementIncrement, &force, &contactVelocity,
-			     &spin, &torque })
+			     &spin, &torque, &angularVelocity, &meanSpin })
 			for (Column& c : *cs)
 				visit(c);
 		visit(thicknessStretch);
@@ -84,6 +89,7 @@ struct Points {
 		visit(group);
 		visit(prescribedDofs);
 		visit(inContact);
+		visit(spinUnknown);
 	}
 
 	/* Adds an undeformed, stress-free point; prepare() gives it the columns that the analysis needs. */
@@ -117,6 +123,19 @@ struct Points {
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!prescribedDofs.empty()) prescribedDofs.resize(n, 0);
 		if (!inContact.empty()) prepareContacts();
+		if (!angularVelocity.empty()) prepareRotation(int(angularVelocity.size()));
+	}
+	/* Gives every point an angular velocity with this number of components; those of new points have to be found. */
+	void prepareRotation(int components)
+	{
+		const std::size_t n = count(), before = angularVelocity.empty() ? 0 : angularVelocity.front().size();
+		if (before == n) return;
+		spinUnknown.resize(before, 0), spinUnknown.resize(n, 1);
+		for (Columns* columns : { &angularVelocity, &meanSpin }) {
+			columns->resize(std::size_t(components));
+			for (Column& column : *columns)
+				column.resize(n, 0.);
+		}
 	}
 	/* Gives every point what points in contact need. */
 	void prepareContacts()

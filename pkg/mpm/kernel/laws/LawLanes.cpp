@@ -36,6 +36,20 @@ namespace {
 				block.F[k][l] = f[k];
 		});
 	}
+	/* Strain increments in the axes of the end of the step. */
+	template <class S> void turnToEnd(const LawBlock<S>& block, Lanes (&strain)[S::N])
+	{
+		forLanes([&](int l) {
+			double g[gradients<S>];
+			for (int k = 0; k < gradients<S>; ++k)
+				g[k] = block.G[k][l];
+			Increment<S> increment;
+			increment.large(g);
+			increment.turnToEnd();
+			for (int k = 0; k < S::N; ++k)
+				strain[k][l] = increment.strain[k];
+		});
+	}
 } // namespace
 
 template <class S> void updateBlock(InstructionSet set, const Law& law, bool largeStrain, LawBlock<S>& block)
@@ -48,6 +62,7 @@ template <class S> void updateBlock(InstructionSet set, const Law& law, bool lar
 			case 1: advance<S, true, 1>(block, strain); break;
 			default: advance<S, true, 2>(block, strain);
 		}
+		if (largeStrain && block.turnToEnd) turnToEnd(block, strain);
 		updateStressLanes<LawState<S>>(law, strain, block.sigma, block.internal, block.response, block.respond);
 	});
 }

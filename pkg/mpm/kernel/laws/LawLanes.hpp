@@ -11,7 +11,8 @@ namespace yade::mpm {
 internal tensors turn with the material, before the law. */
 template <class S> struct LawBlock {
 	Lanes            G[gradients<S>], F[S::dim * S::dim], sigma[S::N], internal[maxInternals(S::N)];
-	bool             respond = false; // whether to compute
+	bool             turnToEnd = false; // strain increments to the axes of the end of the step, Kinematics.hpp
+	bool             respond   = false; // whether to compute
 	Responses<lanes> response;
 };
 /* Compiled once for each instruction set, for the stress states that LawLanes.cpp lists. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "../transfer/Turns.hpp"
 #include "NodeFields.hpp"
 #include "Solver.hpp"
 #include "TileReport.hpp"
@@ -9,11 +10,6 @@ namespace yade::mpm {
 
 /* Points in contact with other bodies of YADE: they exchange torques as well as forces, and move with the velocities that
 strain the material. */
-
-/* Rotation k turns axis turnsFrom(k) towards turnsTo(k): about x, y, z in space, about z in the plane. */
-template <int dim> constexpr int turns = dim == 3 ? 3 : dim - 1;
-template <int dim> constexpr int turnsFrom(int k) { return dim == 3 ? (k + 1) % 3 : 0; }
-template <int dim> constexpr int turnsTo(int k) { return dim == 3 ? (k + 2) % 3 : dim - 1; }
 
 /* Torques: f_i += T_p x grad N_ip / 2, which has no resultant, the moment T_p and the power T_p . spin. */
 template <int dim, class Shape> void spreadTorques(const Transfer<dim, Shape>& transfer, std::size_t t, NodeVector<dim>& force)

@@ -16,7 +16,9 @@ force on the point, whose work is that of this change at the point's mean veloci
 self-adjoint the forces do work as if u_i were (2 - Q) u_i (MassCorrection.hpp). m_i a_i is the sum of internal, external, damping and wall forces: each does
 the work f_i . u_i dt. Masses and forces are those of the nodes before mirroring, velocities those with images; walls at rest then do no work. The
 internal forces' work is not used: V_p sigma_p : d eps_p at the points takes its place, and the difference of the two is the error of the time
-integration, which the sum of all energies shows. */
+integration, which the sum of all energies shows.
+
+With the affine transfer (Rotation.hpp) W_p and J_p stand beside v_p and m_p everywhere; u_i is made without the terms in tau, which do no work. */
 template <class D> class EnergyBalance {
 	static constexpr int dim = D::dim;
 	using S                  = typename D::S;
@@ -72,13 +74,15 @@ public:
 	/* Acceleration that damping takes away: for the update of the nodes. */
 	NodeVector<dim>* damping() { return &m_damping; }
 	/* After the update: velocities at the start of the step, and their change. */
-	void keepMotion(const D& d)
+	void keepMotion(D& d, double dt)
 	{
 		m_change        = d.fields.velocityIncrement;
 		m_start         = velocityAtStart(d.fields);
 		const Points& P = d.transfer.points;
 		m_velocity.assign(P.velocity.begin(), P.velocity.begin() + dim);
-		m_kineticAtStart = kineticEnergy<dim>(P);
+		m_kineticAtStart = kineticEnergy(d);
+		m_spin           = P.angularVelocity;
+		if (rotates(d)) subtractTurn(d, dt);
 		d.constraints.afterUpdate(m_damping, Motion::increment);
 	}
 	/* Work of the step's forces, when the points have taken the new velocities. */
@@ -117,10 +121,12 @@ public:
 		P.energies.add(work); // half of the step's work until its start ...
 		P.upcoming = work;    // ... and half of it after
 	}
-	/* After the stress update that ends the step. */
+	/* Before the stress update that ends the step. */
+	void keepKinetic(const D& d) { m_kineticAtEnd = kineticEnergy(d); }
+	/* After it. */
 	void finish(Points& P)
 	{
-		P.energies.kinetic = .5 * (m_kineticAtStart + kineticEnergy<dim>(P));
+		P.energies.kinetic = .5 * (m_kineticAtStart + m_kineticAtEnd);
 		collectTiles(P);
 	}
 
@@ -131,7 +137,35 @@ private:
 	NodeVector<dim>       m_damping;           // acceleration that damping takes away
 	NodeVector<dim>       m_start, m_change;   // nodal velocities at the start of the step, and their change
 	Columns               m_velocity;          // of the points at the start
-	double                m_kineticAtStart = 0;
+	Columns               m_spin;              // likewise, angular velocities
+	double                m_kineticAtStart = 0, m_kineticAtEnd = 0;
+
+	/* Takes off m_start what the terms in tau of the first mapping have added. */
+	void subtractTurn(D& d, double dt)
+	{
+		NodeVector<dim> with, without;
+		spreadVelocities(d.transfer, noField<dim>, with, true, -.5 * dt);
+		spreadVelocities(d.transfer, noField<dim>, without, true);
+		for (int a = 0; a < dim; ++a)
+			for (std::size_t i = 0; i < with[a].size(); ++i)
+				with[a][i] -= without[a][i];
+		velocityFromMomentum(d, with, with, Motion::increment);
+		for (int a = 0; a < dim; ++a)
+			for (std::size_t i = 0; i < with[a].size(); ++i)
+				m_start[a][i] -= with[a][i];
+	}
+	/* Changes of the angular velocity of a point: gathered from the nodes, and taken. Books the work of prescribed motion and PIC. */
+	void takenTurn(const Points& P, std::size_t p, double flip, const Arms<dim, typename D::Shape>& arms, const double* gathered, double* taken,
+		Energies& half) const
+	{
+		const bool fixed = !P.prescribedDofs.empty() && P.prescribedDofs[p];
+		for (std::size_t k = 0; k < std::size_t(turns<dim>); ++k) {
+			const double old  = m_spin[k][p];
+			taken[k]          = flip == 1 && !fixed ? gathered[k] : P.angularVelocity[k][p] - old;
+			const double work = .5 * P.mass[p] * arms.inertia(int(k)) * (taken[k] - gathered[k]) * (old + .5 * taken[k]);
+			(fixed ? half.walls : half.damping) -= work;
+		}
+	}
 
 	/* (m Q dv)_i / 2 of the changes that the points take, and the work of prescribed motion and PIC. */
 	void sumMeanChange(const D& d, double flip, const NodeVector<dim>& dv, std::size_t t, NodeVector<dim>& u, Energies& half) const
@@ -155,6 +189,19 @@ private:
 					half.damping -= .5 * m * (taken[a] - dvp) * (old + .5 * taken[a]);
 				}
 			}
+			if constexpr (dim > 1)
+				if (rotates(d)) {
+					const Arms<dim, typename D::Shape>   arms(w, d.transfer.geometry.cell);
+					RotationRows<dim, typename D::Shape> rotation;
+					double                               motion[dim], gathered[turns<dim>], turn[turns<dim>];
+					gatherMotion(w, arms, change, motion, gathered);
+					takenTurn(P, p, flip, arms, gathered, turn, half);
+					rotation.set(arms, .5 * m, turn, 0);
+					for (int a = 0; a < dim; ++a)
+						motion[a] = .5 * m * taken[a];
+					spreadAffineMomentum(w, motion, rotation, sum);
+					continue;
+				}
 			w.forEachNode([&](int i, double Nip, const std::array<double, dim>&) {
 				for (int a = 0; a < dim; ++a)
 					sum[a][i] += .5 * Nip * m * taken[a];

@@ -20,10 +20,10 @@ dissipation. With flip < 1 PIC's part is S (2 - Q) (S+ v_p + dt a), FMPM(2). */
 
 inline bool correctsMass(const StepControl& control) { return control.fullMass && control.scheme == Scheme::musl; }
 
-/* v <- (2 - Q) v. Qv is scratch. */
-template <class D> void correctMass(D& d, NodeVector<D::dim>& v, NodeVector<D::dim>& Qv, Motion motion)
+/* v <- (2 - Q) v. Qv is scratch, tau that of Rotation.hpp. */
+template <class D> void correctMass(D& d, NodeVector<D::dim>& v, NodeVector<D::dim>& Qv, Motion motion, double tau = 0)
 {
-	spreadVelocities(d.transfer, &v, Qv);
+	spreadVelocities(d.transfer, &v, Qv, rotates(d), tau);
 	velocityFromMomentum(d, Qv, Qv, motion);
 	subtractRoundTrip(d.transfer, v, Qv);
 }
@@ -38,11 +38,11 @@ template <class D> AddedWallWork correctIncrements(D& d, const StepControl& cont
 {
 	const double  flip = control.flip, over = 1 / control.dt;
 	AddedWallWork work;
-	spreadVelocities(d.transfer, &d.fields.velocityIncrement, Qv);
+	spreadVelocities(d.transfer, &d.fields.velocityIncrement, Qv, rotates(d));
 	work.correction = projectWithReactions(d, Qv, Motion::increment, -flip * over, control.dt);
 	subtractRoundTrip(d.transfer, d.fields.velocityIncrement, Qv);
 	if (flip == 1) return work;
-	spreadVelocities(d.transfer, &d.fields.velocity, Qv);
+	spreadVelocities(d.transfer, &d.fields.velocity, Qv, rotates(d), .5 * control.dt);
 	work.pic = projectWithReactions(d, Qv, Motion::velocity, -(1 - flip) * over, control.dt);
 	subtractRoundTrip(d.transfer, d.fields.velocity, Qv);
 	return work;
@@ -50,9 +50,10 @@ template <class D> AddedWallWork correctIncrements(D& d, const StepControl& cont
 /* Of MUSL's second mapping; the points' displacement increments are made anew. */
 template <class D> void correctVelocities(D& d, const StepControl& control, NodeVector<D::dim>& Qv, std::vector<TileReport>& reports)
 {
-	correctMass(d, d.fields.velocity, Qv, Motion::velocity);
+	correctMass(d, d.fields.velocity, Qv, Motion::velocity, .5 * control.dt);
+	if (rotates(d)) return; // they come with the strain
 	clear(d.transfer, d.fields.velocityIncrement);
-	d.transfer.forEachTile([&](std::size_t t) { gridToPoints<false>(d, control.dt, 1, t, reports[t]); });
+	d.transfer.forEachTile([&](std::size_t t) { gridToPoints<false>(d, control, 1, t, reports[t]); });
 }
 
 } // namespace yade::mpm

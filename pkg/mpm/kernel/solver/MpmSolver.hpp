@@ -5,6 +5,7 @@
 #include "FaceLoads.hpp"
 #include "NullSpaceFilter.hpp"
 #include "PointChecks.hpp"
+#include "PointRotation.hpp"
 #include "StableStep.hpp"
 #include "StressUpdate.hpp"
 
@@ -34,8 +35,12 @@ public:
 		if (points().count() == 0) return;
 		m_control = control, m_d.transfer.threads = control.threads;
 		m_shown.reset();
+		if ((control.affine && dim > 1) != rotates(m_d)) finish(), startRotation();
 		if (control.trackEnergy && !points().energies.started) finish(), m_balance.start(m_d, m_analysis, m_laws, control.largeStrain);
 		layGrid();
+		if (!points().spinUnknown.empty()) findRotation(m_d, control, m_rounds);
+		m_rounds = 4;
+		if (rotates(m_d)) noteSpread();
 		lap("points sorted into tiles");
 		switch (control.scheme) {
 			case Scheme::musl: musl(); break;
@@ -61,7 +66,7 @@ public:
 		if (!isLaid()) m_shown = nodes();
 		m_control.time = control.time; // of what layGrid() says
 		layGrid();
-		return StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass);
+		return StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass, control.affine && dim > 1);
 	}
 	double crossingRate() const override
 	{
@@ -73,10 +78,27 @@ public:
 		return crossing;
 	}
 
-	void        pointsChanged() override { m_sorted = m_known = false; }
-	std::size_t gridBytes() const override { return m_d.fields.bytes(); }
-	Analysis    analysis() const override { return m_analysis; }
-	int         components() const override { return S::N; }
+	void          pointsChanged() override { m_sorted = m_known = false; }
+	std::size_t   gridBytes() const override { return m_d.fields.bytes(); }
+	Analysis      analysis() const override { return m_analysis; }
+	PointRotation rotation(std::size_t p) const override
+	{
+		if (!rotates(m_d)) return {};
+		// the place in its cell that the grid has, or would have
+		const auto            geometry = makeGeometry<dim>(m_cellSize, m_walls);
+		std::array<double, 3> spread { 0, 0, 0 };
+		for (std::size_t d = 0; d < std::size_t(dim); ++d) {
+			const double h = geometry.cell[d], r = Shape::usesSize ? .5 * points().size[p] / h : 0,
+				     xi   = geometry.xi(int(d), points().position[d][p]);
+			const double base = std::floor(xi - Shape::shift(r));
+			double       N[Shape::support], dN[Shape::support];
+			Shape::evaluate(xi, base, r, N, dN);
+			for (int k = 0; k < Shape::support; ++k)
+				spread[d] += N[k] * (base + k - xi) * (base + k - xi) * h * h;
+		}
+		return PointRotation::of(points(), p, spread);
+	}
+	int components() const override { return S::N; }
 
 	GridNodes nodes() const override
 	{
@@ -119,6 +141,7 @@ private:
 	bool                     m_known        = false; // points are in the tiles of the grid, unless a report marks a tile as left
 	bool                     m_sorted       = false; // all of them are
 	bool                     m_stressDue    = false;
+	int                      m_rounds       = 4; // of finding the rotation of points, in the next step
 
 	Points&       points() { return m_d.transfer.points; }
 	const Points& points() const { return m_d.transfer.points; }
@@ -136,7 +159,8 @@ private:
 		if (correctsMass(m_control)) correctVelocities(m_d, m_control, m_roundTrip, m_reports);
 		endMotion();
 		lap("nodes to points and back");
-		deferStress(); // 16
+		deferStress();              // 16
+		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress last, with the nodal velocities that eq. 14 ends with. */
 	void usl()
@@ -146,7 +170,8 @@ private:
 		m_d.transfer.forEachTile([this](std::size_t t) { moveTile<false>(t); }); // 15
 		endMotion();
 		lap("nodes to points");
-		deferStress(); // 16
+		deferStress();              // 16
+		if (rotates(m_d)) finish(); // it moves the points
 	}
 	/* Stress first, with the velocities that the points bring to the nodes. */
 	void usf()
@@ -217,13 +242,13 @@ private:
 		if (pic) m_d.constraints.keepMomentum(m_d.fields.momentum);
 		updateNodes(m_d, m_control, energies ? m_balance.damping() : nullptr);
 		const double share = pic ? m_d.constraints.addMomentumLoss(velocityAtStart(m_d.fields), (1 - m_control.flip) / m_control.dt, m_control.dt) : 0;
-		if (energies) m_balance.keepMotion(m_d);
+		if (energies) m_balance.keepMotion(m_d, m_control.dt);
 		m_added = correctsMass(m_control) ? correctIncrements(m_d, m_control, m_roundTrip) : AddedWallWork {};
 		m_added.pic += share;
 		lap("nodes");
 	}
 	/* Eq. 15, with MUSL's second mapping where remap. */
-	template <bool remap> void moveTile(std::size_t t) { gridToPoints<remap>(m_d, m_control.dt, m_control.flip, t, m_reports[t]); }
+	template <bool remap> void moveTile(std::size_t t) { gridToPoints<remap>(m_d, m_control, m_control.flip, t, m_reports[t]); }
 
 	/* When the points have their new velocities: work of the forces, points in contact, filter. */
 	void endMotion()
@@ -232,6 +257,26 @@ private:
 		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
 		if (!points().inContact.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
 		if (m_control.filter > 0) filterVelocities(m_d, m_control);
+		if (m_control.trackEnergy) m_balance.keepKinetic(m_d);
+	}
+	/* Points carry rotation with the affine transfer, and with it alone. */
+	void startRotation()
+	{
+		Points& P = points();
+		if (m_control.affine && dim > 1)
+			P.prepareRotation(turns<dim>), m_rounds = 100;
+		else {
+			for (std::size_t p = 0; p < P.count() && P.energies.started; ++p)
+				P.energies.external += rotation(p).energy, P.energies.kinetic -= rotation(p).energy;
+			P.angularVelocity.clear(), P.meanSpin.clear(), P.spread.clear(), P.spinUnknown.clear();
+		}
+	}
+	/* For a saved scene, which has no solver when it has been loaded. */
+	void noteSpread()
+	{
+		points().spread.assign(3, 0.);
+		for (std::size_t d = 0; d < std::size_t(dim); ++d)
+			points().spread[d] = Shape::variance * m_d.transfer.geometry.cell[d] * m_d.transfer.geometry.cell[d];
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
 	void updateStress(std::size_t t)

@@ -58,6 +58,9 @@ template <class S_, class Shape_> struct Discretization {
 	NodeFields<S>        fields {};
 };
 
+/* Whether the points carry rotation: the affine transfer. */
+template <class D> bool rotates(const D& d) { return !d.transfer.points.angularVelocity.empty(); }
+
 namespace detail {
 	inline void zero(Field& field, std::size_t begin, std::size_t end)
 	{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "../transfer/Rotation.hpp"
 #include "MeanDilatation.hpp"
 #include "NodeFields.hpp"
 #include "PointState.hpp"
@@ -9,6 +10,8 @@ namespace yade::mpm {
 
 /* Eqs. 12 and 13:  m_i = sum N_ip m_p,  (m v)_i = sum N_ip m_p v_p,
 f_i = sum N_ip (f_p + m_p g) - V_p sigma_p grad N_ip.
+
+With the affine transfer the points bring their rotation along (Rotation.hpp).
 
 Passes are functions of one tile, compiled by run() once for each instruction set, so that a pass gives the same bits
 wherever it is called from. */
@@ -67,11 +70,11 @@ namespace detail {
 		T::Patch::add(tile, mr, radialMass);
 	}
 
-	template <Sums sums, class S, class Shape>
+	template <Sums sums, bool affine, class S, class Shape>
 	void spreadTile(const Transfer<S::dim, Shape>& transfer, NodeFields<S>& fields, const StepControl& control, std::size_t t)
 	{
 		constexpr int  dim = S::dim, row = Shape::row;
-		constexpr bool motion = sums != Sums::forces, forces = sums != Sums::motion;
+		constexpr bool motion = sums != Sums::forces, forces = sums != Sums::motion, rotates = affine && motion;
 		using Patch          = mpm::Patch<dim, Shape>;
 		using Values         = typename Patch::Values;
 		const auto&   tile   = transfer.grid.tiles()[t];
@@ -88,26 +91,33 @@ namespace detail {
 			if (averaged) takeMeanPressure<S, Shape>(points, block, control, w, pressure, x[0], fp, Vs);
 			for (int l = 0; l < block.count; ++l) {
 				// along x, all that a row's weights across will multiply
-				alignas(8 * row) double rm[row], rmv[dim][row], rf[dim][dim][row];
-				const double *          N = w[l].N[0], *dN = w[l].dN[0];
+				alignas(8 * row) double     rm[row], rmv[dim][row], rf[dim][dim][row];
+				const double *              N = w[l].N[0], *dN = w[l].dN[0];
+				RowsOf<rotates, dim, Shape> rotation;
+				if constexpr (rotates) rotation.set(points, block, l, w[l], transfer.geometry.cell, mp[l], -.5 * control.dt);
 #pragma omp simd
 				for (int i = 0; i < row; ++i) {
 					if (motion) rm[i] = mp[l] * N[i];
 					for (int d = 0; d < dim; ++d) {
 						if (motion) rmv[d][i] = mvp[d][l] * N[i];
+						if constexpr (rotates) rmv[d][i] += rotation.alongX[d][i];
 						if (!forces) continue;
 						rf[d][0][i] = fp[d][l] * N[i] - Vs[d][0][l] * dN[i];
 						for (int e = 1; e < dim; ++e)
 							rf[d][e][i] = -Vs[d][e][l] * N[i];
 					}
 				}
+				int n = 0;
 				w[l].forEachRow([&](int offset, const std::array<double, dim>& c) {
 					const int at = w[l].first + offset;
 #pragma omp simd
 					for (int i = 0; i < row; ++i) {
 						if (motion) m[at + i] += c[0] * rm[i];
 						for (int d = 0; d < dim; ++d) {
-							if (motion) mv[d][at + i] += c[0] * rmv[d][i];
+							if constexpr (rotates)
+								mv[d][at + i] += c[0] * (rmv[d][i] + rotation.acrossRows[d][n] * N[i]);
+							else if (motion)
+								mv[d][at + i] += c[0] * rmv[d][i];
 							if (!forces) continue;
 							double sum = f[d][at + i];
 							for (int e = 0; e < dim; ++e)
@@ -115,6 +125,7 @@ namespace detail {
 							f[d][at + i] = sum;
 						}
 					}
+					++n;
 				});
 			}
 		});
@@ -131,7 +142,10 @@ namespace detail {
 template <Sums sums, class S, class Shape>
 void pointsToGrid(const Transfer<S::dim, Shape>& transfer, NodeFields<S>& fields, const StepControl& control, std::size_t t)
 {
-	run(transfer.instructions, [&, t] { detail::spreadTile<sums>(transfer, fields, control, t); });
+	if constexpr (S::dim > 1 && sums != Sums::forces)
+		if (!transfer.points.angularVelocity.empty())
+			return run(transfer.instructions, [&, t] { detail::spreadTile<sums, true>(transfer, fields, control, t); });
+	run(transfer.instructions, [&, t] { detail::spreadTile<sums, false>(transfer, fields, control, t); });
 }
 
 } // namespace yade::mpm

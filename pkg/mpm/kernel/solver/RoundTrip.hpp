@@ -6,12 +6,16 @@
 
 namespace yade::mpm {
 
-/* Q of doc/method.md, the way of a nodal velocity to the points and back: shared by the mass correction and the null-space filter. */
+/* Q of doc/method.md, the way of a nodal velocity to the points and back: shared by the mass correction and the null-space filter. With the
+affine transfer the points carry rotation along; tau is that of Rotation.hpp. */
+
+/* sum (m_p v_p^2 + J_p W_p^2)/2 [J]. */
+template <class D> double kineticEnergy(const D& d) { return kineticEnergy<D::dim>(d.transfer.points) + spinEnergy(d.transfer); }
 
 namespace detail {
 	/* (m v)_i = sum N_ip m_p v_p: of the points' velocities, or of those that the nodal field v has at the points. */
-	template <int dim, class Shape>
-	void spreadTileVelocities(const Transfer<dim, Shape>& transfer, std::size_t t, const NodeVector<dim>* v, NodeVector<dim>& momentum)
+	template <bool affine, int dim, class Shape>
+	void spreadTileVelocities(const Transfer<dim, Shape>& transfer, std::size_t t, const NodeVector<dim>* v, NodeVector<dim>& momentum, double tau)
 	{
 		using T                 = Transfer<dim, Shape>;
 		const auto&        tile = transfer.grid.tiles()[t];
@@ -23,10 +27,26 @@ namespace detail {
 			WeightLanes<dim, Shape> w;
 			loadMotion(transfer.points, block, x, mp, mvp);
 			transfer.weights(tile, block, x, w);
-			for (int d = 0; v && d < dim; ++d)
-				for (int l = 0; l < block.count; ++l)
-					mvp[d][l] = mp[l] * w[l].gather(field[d]);
-			spreadMomentum<dim, Shape>(w, block, mvp, mv);
+			if constexpr (affine) {
+				for (int l = 0; l < block.count; ++l) {
+					const Arms<dim, Shape>   arms(w[l], transfer.geometry.cell);
+					RotationRows<dim, Shape> rotation;
+					double                   u[dim], W[turns<dim>];
+					if (v) gatherMotion(w[l], arms, field, u, W);
+					for (int d = 0; d < dim; ++d)
+						u[d] = v ? mp[l] * u[d] : mvp[d][l];
+					if (v)
+						rotation.set(arms, mp[l], W, tau);
+					else
+						rotation.set(transfer.points, block, l, w[l], transfer.geometry.cell, mp[l], tau);
+					spreadAffineMomentum(w[l], u, rotation, mv);
+				}
+			} else {
+				for (int d = 0; v && d < dim; ++d)
+					for (int l = 0; l < block.count; ++l)
+						mvp[d][l] = mp[l] * w[l].gather(field[d]);
+				spreadMomentum<dim, Shape>(w, block, mvp, mv);
+			}
 		});
 		for (int d = 0; d < dim; ++d)
 			T::Patch::add(tile, mv[d], momentum[d]);
@@ -36,12 +56,17 @@ namespace detail {
 template <int dim> constexpr const NodeVector<dim>* noField = nullptr;
 
 /* Momenta at the nodes of the points' velocities or, with v, of those that the nodal field v has at the points. */
-template <int dim, class Shape> void spreadVelocities(const Transfer<dim, Shape>& transfer, const NodeVector<dim>* v, NodeVector<dim>& momentum)
+template <int dim, class Shape>
+void spreadVelocities(const Transfer<dim, Shape>& transfer, const NodeVector<dim>* v, NodeVector<dim>& momentum, bool affine, double tau = 0)
 {
 	for (Field& component : momentum)
 		component.resize(transfer.grid.nodeCount());
-	sumOverTiles(
-		transfer, [&](std::size_t t) { run(transfer.instructions, [&, t] { detail::spreadTileVelocities(transfer, t, v, momentum); }); }, momentum);
+	auto work = [&](std::size_t t) {
+		if constexpr (dim > 1)
+			if (affine) return run(transfer.instructions, [&, t] { detail::spreadTileVelocities<true>(transfer, t, v, momentum, tau); });
+		run(transfer.instructions, [&, t] { detail::spreadTileVelocities<false>(transfer, t, v, momentum, tau); });
+	};
+	sumOverTiles(transfer, work, momentum);
 }
 
 /* v <- 2 v - Qv. */

@@ -13,7 +13,8 @@ namespace yade::mpm {
 
 with lumped mass M, and K of the points' elastic stiffness. MUSL and USF are stable for dt < 2/omega with omega^2 the
 greatest eigenvalue of Q A; USL, which updates stress with velocities that have not been through Q, for
-dt^2 lambda (2 - q) < 4, which sqrt(2/lambda) of A alone always satisfies. With the mass correction (2 - Q) Q (2 - Q) takes the place of Q.
+dt^2 lambda (2 - q) < 4, which sqrt(2/lambda) of A alone always satisfies. With the mass correction (2 - Q) Q (2 - Q) takes the place of Q; with
+the affine transfer S takes velocity and rotation to the points and Q = M^-1 S^T diag(m, J) S, which is nearer to 1 for shear.
 
 Q A is self-adjoint in the Q-weighted product of masses. The estimate has fields of its own: those of the last step stay. */
 template <class D> class StableStep {
@@ -38,8 +39,9 @@ public:
 		d.constraints.afterSums(sums.masses());
 	}
 	/* Largest stable step [s]. */
-	double value(Scheme scheme, bool fullMass)
+	double value(Scheme scheme, bool fullMass, bool affine)
 	{
+		m_affine            = affine;
 		const Vector start  = startVector();
 		auto         apply  = [this](const Vector& x, Vector& y) { stiffness(x, y); };
 		auto         inner  = [this](const Vector& x, const Vector& y) { return massProduct(x, y); };
@@ -65,6 +67,7 @@ private:
 	NodeFields<S>             m_sums; // masses of the points at rest; velocity, momentum and force are scratch
 	std::size_t               m_nodes;
 	Vector                    m_Qy;
+	bool                      m_affine = false;
 
 	double massOf(std::size_t k) const { return m_sums.massOf(int(k / m_nodes))[k % m_nodes]; }
 	double massProduct(const Vector& x, const Vector& y) const
@@ -132,7 +135,7 @@ private:
 	void roundTrip(const Vector& x, Vector& y)
 	{
 		unpack(x, m_sums.velocity);
-		spreadVelocities(m_d.transfer, &m_sums.velocity, m_sums.momentum);
+		spreadVelocities(m_d.transfer, &m_sums.velocity, m_sums.momentum, m_affine);
 		pack(m_sums.momentum, y);
 	}
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../laws/LawLanes.hpp"
+#include "GridToPoints.hpp"
 #include "MeanDilatation.hpp"
 #include "NodeFields.hpp"
 #include "StressWork.hpp"
@@ -11,7 +12,12 @@
 namespace yade::mpm {
 
 /* Eq. 16:  grad v_p = sum v_i grad N_ip, strain increment and rotation, law, deformation gradient; then the point moves by its
-displacement increment. Points of a block that share a law are updated at once, others one by one. */
+displacement increment. Points of a block that share a law are updated at once, others one by one.
+
+With the affine transfer a point moves with the velocities that strain it, x_p += dt sum N_ip v_i, since only then F and x go on
+agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 20 |s|, with s the mean of w over the
+last five radians of turning: while the lattice turns over the grid, W_p forgets the part that the grid does not see. The spin of a vibration
+changes its sign within a small angle, so that s stays small and W_p keeps its energy. */
 template <class D> struct StressUpdate {
 	using S                   = typename D::S;
 	using Shape               = typename D::Shape;
@@ -43,15 +49,19 @@ template <class D> struct StressUpdate {
 
 	void updateTile(std::size_t t, TileReport& report)
 	{
-		run(d.transfer.instructions, [this, t, &report] { strainTile(t, report); });
+		if constexpr (dim > 1)
+			if (rotates(d)) return run(d.transfer.instructions, [this, t, &report] { strainTile<true>(t, report); });
+		run(d.transfer.instructions, [this, t, &report] { strainTile<false>(t, report); });
 	}
 
 private:
 	Points& points() const { return d.transfer.points; }
 
-	void strainTile(std::size_t t, TileReport& report)
+	template <bool affine> void strainTile(std::size_t t, TileReport& report)
 	{
-		const auto& tile = d.transfer.grid.tiles()[t];
+		const auto& tile  = d.transfer.grid.tiles()[t];
+		const bool  moves = affine && movesWithStrain(points(), control.scheme);
+		bool        left  = false;
 		Values      v[dim], dilatations;
 		for (int a = 0; a < dim; ++a)
 			D::Patch::read(tile, d.fields.velocity[a], v[a]);
@@ -62,8 +72,15 @@ private:
 			for (int a = 0; a < dim; ++a)
 				load(points().position[std::size_t(a)], block, x[a]);
 			d.transfer.weights(tile, block, x, w);
-			for (int l = 0; l < lanes; ++l)
-				displacementGradient<S>(w[std::min(l, block.count - 1)], v, x[0][l], control.dt, l, G);
+			[[maybe_unused]] Lanes u[dim];
+			for (int l = 0; l < lanes; ++l) {
+				const auto& wl = w[std::min(l, block.count - 1)];
+				if constexpr (affine)
+					displacementAndGradient(wl, v, x[0][l], l, u, G);
+				else
+					displacementGradient<S>(wl, v, x[0][l], control.dt, l, G);
+			}
+			if constexpr (affine) relaxRotation(t, block, w, G);
 			if (averagesDilatation<S>(control)) takeMeanDilatation<S, Shape>(block, control, w, dilatations, G);
 			if (!areModerate(G) || !updateBlockStress(block, G, report))
 				for (int l = 0; l < block.count; ++l) {
@@ -72,8 +89,90 @@ private:
 						Gp[k] = G[k][l];
 					updatePointStress(t, block.first + std::size_t(l), Gp, report);
 				}
+			if constexpr (affine)
+				if (moves) takeDisplacement(block, u);
 			move(block, x);
+			if constexpr (affine)
+				if (moves) left |= !staysInside(tile, block, x);
 		});
+		if (moves) report.left |= left;
+	}
+	/* dt v and dt grad v of a lane's point. */
+	void displacementAndGradient(const typename D::Weights& w, const Values (&v)[dim], double r, int l, Lanes (&u)[dim], Lanes (&G)[gradients<S>]) const
+	{
+		for (int a = 0; a < dim; ++a) {
+			double gradient[dim];
+			u[a][l] = control.dt * w.gatherWithGradient(v[a], gradient);
+			for (int e = 0; e < dim; ++e)
+				G[a * dim + e][l] = control.dt * gradient[e];
+		}
+		if constexpr (hoop) G[dim * dim][l] = u[0][l] / r;
+	}
+	/* Displacement increments: u, of prescribed components the prescribed one. */
+	void takeDisplacement(Block block, Lanes (&u)[dim])
+	{
+		Points& P = points();
+		for (std::size_t a = 0; a < std::size_t(dim); ++a) {
+			for (int l = 0; !P.prescribedDofs.empty() && l < block.count; ++l) {
+				const std::size_t p = block.first + std::size_t(l);
+				if (P.prescribedDofs[p] >> a & 1) u[a][l] = control.dt * P.velocity[a][p];
+			}
+			store(u[a], block, P.displacementIncrement[a]);
+		}
+	}
+	bool staysInside(const typename D::Tile& tile, Block block, const Lanes (&x)[dim]) const
+	{
+		const auto& g      = d.transfer.geometry;
+		int         inside = 1;
+		for (std::size_t a = 0; a < std::size_t(dim); ++a) {
+			const double origin = g.origin[a], cell = g.cell[a], lower = g.xiMin[a], upper = g.xiMax[a], corner = tile.index[a] * D::T::Grid::width;
+			Lanes        size {};
+			if (Shape::usesSize) load(points().size, block, size);
+#pragma omp simd reduction(& : inside)
+			for (int l = 0; l < lanes; ++l) {
+				const double xi = (x[a][l] - origin) / cell, inTile = xi - Shape::shift(.5 * size[l] / cell) - corner;
+				inside &= (inTile >= 0) & (inTile < D::T::Grid::width) & (xi >= lower) & (xi <= upper);
+			}
+		}
+		return inside;
+	}
+	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/5; then W += b (w - W) with b = a/(1 + a), a = 20 dt |s|. */
+	void relaxRotation(std::size_t t, Block block, const WeightLanes<dim, Shape>& w, const Lanes (&G)[gradients<S>])
+	{
+		Points&          P    = points();
+		constexpr double rate = 20, memory = 5; // less rate: a body that spins shakes; less memory: vibrations lose energy; doc/method.md
+		const double     perSecond = 1 / control.dt;
+		Lanes            turn[turns<dim>], W[turns<dim>], mean[turns<dim>], part;
+		for (int k = 0; k < turns<dim>; ++k) {
+			const int from = turnsFrom<dim>(k), to = turnsTo<dim>(k);
+			forLanes([&](int l) { turn[k][l] = .5 * (G[to * dim + from][l] - G[from * dim + to][l]); });
+			load(P.angularVelocity[std::size_t(k)], block, W[k]);
+			load(P.meanSpin[std::size_t(k)], block, mean[k]);
+		}
+		forLanes([&](int l) {
+			double square = 0, squareOfMean = 0;
+			for (int k = 0; k < turns<dim>; ++k)
+				square += turn[k][l] * turn[k][l];
+			const double theta = std::sqrt(square), taken = theta / (memory + theta);
+			for (int k = 0; k < turns<dim>; ++k) {
+				mean[k][l] += taken * (perSecond * turn[k][l] - mean[k][l]);
+				squareOfMean += mean[k][l] * mean[k][l];
+			}
+			const double angle = rate * control.dt * std::sqrt(squareOfMean);
+			part[l]            = angle / (1 + angle);
+		});
+		for (int l = 0; energies && l < block.count; ++l) {
+			const Arms<dim, Shape> arms(w[l], d.transfer.geometry.cell);
+			for (int k = 0; k < turns<dim>; ++k) {
+				const double old = W[k][l], now = old + part[l] * (perSecond * turn[k][l] - old);
+				energies[t].damping += .5 * P.mass[block.first + std::size_t(l)] * arms.inertia(k) * (old * old - now * now);
+			}
+		}
+		for (int k = 0; k < turns<dim>; ++k) {
+			forLanes([&](int l) { W[k][l] += part[l] * (perSecond * turn[k][l] - W[k][l]); });
+			store(W[k], block, P.angularVelocity[std::size_t(k)]);
+			store(mean[k], block, P.meanSpin[std::size_t(k)]);
+		}
 	}
 	void move(Block block, Lanes (&x)[dim])
 	{
@@ -139,7 +238,8 @@ private:
 		const int   columns  = Internals::of(law).columns(N);
 		const bool  thinning = std::is_same_v<S, PlaneStress> && control.thinning, tracksNormal = !P.freeStrain.empty();
 		LawBlock<S> b;
-		b.respond = thinning || tracksNormal;
+		b.respond   = thinning || tracksNormal;
+		b.turnToEnd = rotates(d);
 		std::copy(G, G + gradients<S>, b.G);
 		for (int k = 0; k < N; ++k)
 			load(P.stress[std::size_t(k)], block, b.sigma[k]);
@@ -236,6 +336,7 @@ private:
 		Increment<S> increment;
 		if (control.largeStrain) {
 			increment.large(G);
+			if (rotates(d)) increment.turnToEnd();
 			increment.rotate(sigma);
 			for (int k = 0; k < layout.tensors; ++k)
 				increment.rotate(internal + k * N);

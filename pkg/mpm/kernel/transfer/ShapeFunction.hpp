@@ -12,6 +12,7 @@ Each struct has
   support          number of consecutive nodes that a point touches
   row              the same, filled up to a whole number of vectors
   usesSize         whether the point's own size enters
+  variance         sum N[k] (k - xi)^2 where it is the same at every place, else 0
   rounding         a node with no more than this part of a point's mass is none that it touches
   shift(r)         the first of those nodes is base = floor(xi - shift), for a point at xi (in cells, from node 0)
   evaluate(...)    values N[k] and derivatives dN[k] = dN/dxi at nodes base+k, k < support or < row
@@ -22,6 +23,7 @@ Engng 76 (2008) 922; the quadratic spline is centred at a node, its knots at mid
 struct LinearShape {
 	static constexpr int    support = 2, row = 2;
 	static constexpr bool   usesSize = false;
+	static constexpr double variance = 0;
 	static constexpr double rounding = 0; // N is at least `beside` to the power of the dimension
 	static double           shift(double) { return 0; }
 	static void             evaluate(double xi, double base, double, double* N, double* dN)
@@ -40,6 +42,7 @@ private:
 struct QuadraticShape {
 	static constexpr int    support = 3, row = 4;
 	static constexpr bool   usesSize = false;
+	static constexpr double variance = 1. / 4;
 	static constexpr double rounding = 1e-14;
 	static double           shift(double) { return .5; }
 	/* N = a + b u^2, u = o + g s, with s from the middle node, in [-1/2, 1/2) */
@@ -59,6 +62,7 @@ struct QuadraticShape {
 struct CubicShape {
 	static constexpr int    support = 4, row = 4;
 	static constexpr bool   usesSize = false;
+	static constexpr double variance = 1. / 3;
 	static constexpr double rounding = 1e-14;
 	static double           shift(double) { return 1; }
 	/* N = a + u^2 (b + c u), u = o + g s: the distance from one of the two middle nodes, in [0, 1] */
@@ -81,6 +85,7 @@ Bardenhagen & Kober, CMES 5 (2004) 477. */
 struct GimpShape {
 	static constexpr int    support = 3, row = 4;
 	static constexpr bool   usesSize = true;
+	static constexpr double variance = 0;
 	static constexpr double rounding = 1e-14;
 	static double           shift(double r) { return r; }
 	static void             evaluate(double xi, double base, double r, double* N, double* dN)

@@ -62,18 +62,23 @@ template <int dim, class Shape> struct Weights {
 		return sumOfRow(part);
 	}
 	/* sum grad N_ip field_i. */
-	void gatherGradient(const double* field, double (&gradient)[dim]) const
+	void gatherGradient(const double* field, double (&gradient)[dim]) const { gatherWithGradient<false>(field, gradient); }
+	/* The same; returns sum N_ip field_i where value. */
+	template <bool value = true> double gatherWithGradient(const double* field, double (&gradient)[dim]) const
 	{
 		const double*           nodes = field + first;
-		alignas(8 * row) double part[dim][row];
+		alignas(8 * row) double part[dim][row], values[row];
 #pragma omp simd
 		for (int i = 0; i < row; ++i) {
-			part[0][i] = dN[0][i] * acrossRows<-1>(nodes + i);
+			const double across = acrossRows<-1>(nodes + i);
+			part[0][i]          = dN[0][i] * across;
+			if (value) values[i] = N[0][i] * across;
 			if constexpr (dim > 1) part[1][i] = N[0][i] * acrossRows<1>(nodes + i);
 			if constexpr (dim > 2) part[2][i] = N[0][i] * acrossRows<2>(nodes + i);
 		}
 		for (int e = 0; e < dim; ++e)
 			gradient[e] = sumOfRow(part[e]);
+		return value ? sumOfRow(values) : 0;
 	}
 
 private:
