@@ -46,7 +46,7 @@ template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Poin
 	archive& make_nvp("freeStrain", points.freeStrain);
 	archive& make_nvp("inContact", points.inContact) & make_nvp("contactVelocity", points.contactVelocity);
 	archive& make_nvp("angularVelocity", points.angularVelocity) & make_nvp("meanSpin", points.meanSpin) & make_nvp("spinUnknown", points.spinUnknown);
-	archive& make_nvp("spread", points.spread);
+	archive& make_nvp("spread", points.spread) & make_nvp("turned", points.turned);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
 template <class Archive> void serialize(Archive& archive, yade::mpm::Points& points, const unsigned int)

@@ -122,7 +122,7 @@ def pressurise(kind, analysis, cells, pressure, yieldStress=None, shape='cubic',
 	O.materials.append(J2Mat(yieldStress=yieldStress, **law) if yieldStress else ElastMat(**law))
 	ids, walls = fill(kind, analysis, spacing)
 	loads, start = faces(ids, analysis, spacing), mpm.array('position')
-	O.engines = [ForceResetter(), MpmEngine(cellSize=2*spacing, analysis=analysis, shape=shape, damping=.4, transfer='flip', walls=walls)]
+	O.engines = [ForceResetter(), MpmEngine(cellSize=2*spacing, analysis=analysis, shape=shape, damping=.4, walls=walls)]
 	O.dt = .5*mpm.criticalTimeStep()
 	steps = int(periods*math.pi*(A + B)/math.sqrt(YOUNG/DENSITY)/O.dt)
 

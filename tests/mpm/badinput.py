@@ -333,7 +333,7 @@ def push_hard(ids):
 
 
 stops('a load that turns a point inside out', 'material point', 'a volume that is not positive', 'at time 0.0', 'position (', 'cell (', 'reduce O.dt or the load',
-	make=lambda: block(transfer='flip'), spoil=push_hard, repair=None)
+	make=block, spoil=push_hard, repair=None)
 
 
 def let_go(ids):

@@ -28,7 +28,7 @@ E, nu, rho, c, pi = 1e7, .3, 1000., 100., math.pi
 
 def error(cells, G, **engine):
 	h = 1./cells
-	ids, grid = block(spacing=h/2, thickness=1., material=FrictMat(young=E, poisson=nu, density=rho), cellSize=h, courant=None, transfer='flip', **engine,
+	ids, grid = block(spacing=h/2, thickness=1., material=FrictMat(young=E, poisson=nu, density=rho), cellSize=h, courant=None, **engine,
 		before=[PyRunner(iterPeriod=1, initRun=True, command='load()')],
 		walls=[MpmWall(normal=n, origin=o, kind='slip') for n, o in (((1, 0, 0), (0, 0, 0)), ((-1, 0, 0), (1, 0, 0)), ((0, 1, 0), (0, 0, 0)), ((0, -1, 0), (0, 1, 0)))])
 	O.dt = .2*h/c

@@ -67,7 +67,7 @@ for analysis, size, faces, wanted in (
 # uniform places: far less accurate than Gauss places, as the docstring says
 error = {}
 for placement in 'gauss', 'uniform':
-	scene('3d', (1, .5, .5), placement=placement, transfer='flip')  # as doc/points.md measures it
+	scene('3d', (1, .5, .5), placement=placement)
 	for face, load in ((((1, 0, 0), (1, .5, .5)), 1e3), (((0, .5, 0), (1, .5, .5)), 1e3), (((0, 0, .5), (1, .5, .5)), 1e3)): mpm.traction(face, pressure=load, cellSize=.25)
 	rest() if placement == 'gauss' else O.run(1500, True)
 	off = abs(mpm.array('stress') + 1e3*numpy.eye(3)).max(axis=(1, 2))/1e3

@@ -133,6 +133,7 @@ std::string nonFiniteValue(const Points& points)
 		     std::make_pair("angularVelocity", &points.angularVelocity), std::make_pair("meanSpin", &points.meanSpin) })
 		for (std::size_t k = 0; k < columns->size(); ++k)
 			look(std::string(name) + "[" + std::to_string(k) + "]", (*columns)[k]);
+	if (fault.empty() && !(points.turned >= 0 && std::isfinite(points.turned))) fault = "the angle turned since the last filtering is " + mpm::number(points.turned);
 	return fault;
 }
 

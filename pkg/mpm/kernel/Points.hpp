@@ -61,6 +61,7 @@ struct Points {
 	Columns                   angularVelocity;                // affine transfer: W_p [rad/s], components as those of spin
 	Columns                   meanSpin;                       // likewise: mean spin of the material, StressUpdate.hpp [rad/s]
 	Column                    spread;                         // likewise, no column of points: sum N (x_i - x_p)^2 along each axis [m2], 0: differs
+	double                    turned = 0;                     // likewise: angle since the last filtering, NullSpaceFilter.hpp [rad]
 	std::vector<std::uint8_t> spinUnknown;                    // points whose W_p has to be found from the velocities; empty: none
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step

@@ -159,8 +159,8 @@ private:
 		if (correctsMass(m_control)) correctVelocities(m_d, m_control, m_roundTrip, m_reports);
 		endMotion();
 		lap("nodes to points and back");
-		deferStress();              // 16
-		if (rotates(m_d)) finish(); // it moves the points
+		deferStress();                             // 16
+		if (rotates(m_d)) finish(), noteTurning(); // it moves the points
 	}
 	/* Stress last, with the nodal velocities that eq. 14 ends with. */
 	void usl()
@@ -170,8 +170,8 @@ private:
 		m_d.transfer.forEachTile([this](std::size_t t) { moveTile<false>(t); }); // 15
 		endMotion();
 		lap("nodes to points");
-		deferStress();              // 16
-		if (rotates(m_d)) finish(); // it moves the points
+		deferStress();                             // 16
+		if (rotates(m_d)) finish(), noteTurning(); // it moves the points
 	}
 	/* Stress first, with the velocities that the points bring to the nodes. */
 	void usf()
@@ -180,6 +180,7 @@ private:
 		sum<Sums::motion>(); // 12
 		startVelocities();
 		deferStress(), finish(); // 16
+		noteTurning();
 		sum<Sums::forces>();     // 13
 		lap("points to nodes, stress");
 		updateVelocities();                                                      // 14
@@ -256,7 +257,8 @@ private:
 		if (m_control.trackEnergy) m_balance.addWork(m_d, m_control, m_added, m_roundTrip);
 		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
 		if (!points().inContact.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
-		if (m_control.filter > 0) filterVelocities(m_d, m_control);
+		if (m_control.filter > 0) filterVelocities(m_d, m_control, m_control.filter, false);
+		if (rotates(m_d)) filterTurning(m_d, m_control);
 		if (m_control.trackEnergy) m_balance.keepKinetic(m_d);
 	}
 	/* Points carry rotation with the affine transfer, and with it alone. */
@@ -268,8 +270,17 @@ private:
 		else {
 			for (std::size_t p = 0; p < P.count() && P.energies.started; ++p)
 				P.energies.external += rotation(p).energy, P.energies.kinetic -= rotation(p).energy;
-			P.angularVelocity.clear(), P.meanSpin.clear(), P.spread.clear(), P.spinUnknown.clear();
+			P.angularVelocity.clear(), P.meanSpin.clear(), P.spread.clear(), P.spinUnknown.clear(), P.turned = 0;
 		}
+	}
+	/* After the stress update: the angle until the next filtering of rotation. */
+	void noteTurning()
+	{
+		if (!rotates(m_d)) return;
+		double square = 0;
+		for (const TileReport& report : m_reports)
+			square = std::max(square, report.spin);
+		points().turned += m_control.dt * std::sqrt(square);
 	}
 	/* For a saved scene, which has no solver when it has been loaded. */
 	void noteSpread()

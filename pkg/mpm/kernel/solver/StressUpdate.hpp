@@ -15,9 +15,8 @@ namespace yade::mpm {
 displacement increment. Points of a block that share a law are updated at once, others one by one.
 
 With the affine transfer a point moves with the velocities that strain it, x_p += dt sum N_ip v_i, since only then F and x go on
-agreeing in a body that turns; and W_p relaxes to the spin of these velocities, w = curl v / 2, at the rate 20 |s|, with s the mean of w over the
-last five radians of turning: while the lattice turns over the grid, W_p forgets the part that the grid does not see. The spin of a vibration
-changes its sign within a small angle, so that s stays small and W_p keeps its energy. */
+agreeing in a body that turns. It keeps the mean s of the spin w = curl v/2 over the last ten radians of turning, which sets the rate of the
+filter (NullSpaceFilter.hpp). The spin of a vibration changes its sign within a small angle, so that s stays small. */
 template <class D> struct StressUpdate {
 	using S                   = typename D::S;
 	using Shape               = typename D::Shape;
@@ -62,6 +61,7 @@ private:
 		const auto& tile  = d.transfer.grid.tiles()[t];
 		const bool  moves = affine && movesWithStrain(points(), control.scheme);
 		bool        left  = false;
+		report.spin       = 0;
 		Values      v[dim], dilatations;
 		for (int a = 0; a < dim; ++a)
 			D::Patch::read(tile, d.fields.velocity[a], v[a]);
@@ -80,7 +80,7 @@ private:
 				else
 					displacementGradient<S>(wl, v, x[0][l], control.dt, l, G);
 			}
-			if constexpr (affine) relaxRotation(t, block, w, G);
+			if constexpr (affine) noteSpin(block, G, report);
 			if (averagesDilatation<S>(control)) takeMeanDilatation<S, Shape>(block, control, w, dilatations, G);
 			if (!areModerate(G) || !updateBlockStress(block, G, report))
 				for (int l = 0; l < block.count; ++l) {
@@ -136,43 +136,33 @@ private:
 		}
 		return inside;
 	}
-	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/5; then W += b (w - W) with b = a/(1 + a), a = 20 dt |s|. */
-	void relaxRotation(std::size_t t, Block block, const WeightLanes<dim, Shape>& w, const Lanes (&G)[gradients<S>])
+	/* s += b (w - s) with b = a/(1 + a), a = dt |w|/10; reports the greatest |s|. */
+	void noteSpin(Block block, const Lanes (&G)[gradients<S>], TileReport& report)
 	{
-		Points&          P    = points();
-		constexpr double rate = 20, memory = 5; // less rate: a body that spins shakes; less memory: vibrations lose energy; doc/method.md
+		Points&          P         = points();
+		constexpr double memory    = 10; // radians
 		const double     perSecond = 1 / control.dt;
-		Lanes            turn[turns<dim>], W[turns<dim>], mean[turns<dim>], part;
+		Lanes            turn[turns<dim>], mean[turns<dim>], square;
 		for (int k = 0; k < turns<dim>; ++k) {
 			const int from = turnsFrom<dim>(k), to = turnsTo<dim>(k);
 			forLanes([&](int l) { turn[k][l] = .5 * (G[to * dim + from][l] - G[from * dim + to][l]); });
-			load(P.angularVelocity[std::size_t(k)], block, W[k]);
 			load(P.meanSpin[std::size_t(k)], block, mean[k]);
 		}
 		forLanes([&](int l) {
-			double square = 0, squareOfMean = 0;
+			double squareOfTurn = 0;
+			square[l]           = 0;
 			for (int k = 0; k < turns<dim>; ++k)
-				square += turn[k][l] * turn[k][l];
-			const double theta = std::sqrt(square), taken = theta / (memory + theta);
+				squareOfTurn += turn[k][l] * turn[k][l];
+			const double angle = std::sqrt(squareOfTurn), taken = angle / (memory + angle);
 			for (int k = 0; k < turns<dim>; ++k) {
 				mean[k][l] += taken * (perSecond * turn[k][l] - mean[k][l]);
-				squareOfMean += mean[k][l] * mean[k][l];
+				square[l] += mean[k][l] * mean[k][l];
 			}
-			const double angle = rate * control.dt * std::sqrt(squareOfMean);
-			part[l]            = angle / (1 + angle);
 		});
-		for (int l = 0; energies && l < block.count; ++l) {
-			const Arms<dim, Shape> arms(w[l], d.transfer.geometry.cell);
-			for (int k = 0; k < turns<dim>; ++k) {
-				const double old = W[k][l], now = old + part[l] * (perSecond * turn[k][l] - old);
-				energies[t].damping += .5 * P.mass[block.first + std::size_t(l)] * arms.inertia(k) * (old * old - now * now);
-			}
-		}
-		for (int k = 0; k < turns<dim>; ++k) {
-			forLanes([&](int l) { W[k][l] += part[l] * (perSecond * turn[k][l] - W[k][l]); });
-			store(W[k], block, P.angularVelocity[std::size_t(k)]);
+		for (int l = 0; l < block.count; ++l)
+			report.spin = std::max(report.spin, square[l]);
+		for (int k = 0; k < turns<dim>; ++k)
 			store(mean[k], block, P.meanSpin[std::size_t(k)]);
-		}
 	}
 	void move(Block block, Lanes (&x)[dim])
 	{

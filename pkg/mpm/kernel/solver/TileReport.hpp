@@ -10,6 +10,7 @@ struct TileReport {
 	bool           left   = false;   // a point has left its tile, or is invalid
 	std::ptrdiff_t failed = -1;      // a point whose stress cannot be updated ...
 	const char*    why    = nullptr; // ... and the reason
+	double         spin   = 0;       // greatest mean spin of its points, squared [1/s2], with the affine transfer
 
 	void fail(std::size_t p, const char* reason)
 	{
