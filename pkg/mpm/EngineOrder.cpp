@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineOrder.hpp"
+#include "MpmState.hpp"
 #include <algorithm>
 #include <core/Omega.hpp>
 #include <core/PartialEngine.hpp>
@@ -7,6 +8,17 @@
 #include <stdexcept>
 
 namespace yade {
+
+namespace {
+	/* Whether an engine of this class sets the velocities of its bodies. YADE knows the direct bases of a class. */
+	bool movesBodies(const std::string& name)
+	{
+		if (name == "CombinedKinematicEngine") return true;
+		for (const char* base : { "KinematicEngine", "TranslationEngine", "RotationEngine", "HelixEngine" })
+			if (name == base || Omega::instance().isInheritingFrom(name, base)) return true;
+		return false;
+	}
+} // namespace
 
 void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const Engine& self)
 {
@@ -23,6 +35,7 @@ void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const En
 					 : dynamic_cast<const TimeStepper*>(engines[k].get()) ? Role::stepper
 					 : name == "NewtonIntegrator"                         ? Role::newton
 					 : name == "InteractionLoop"                          ? Role::loop
+					 : movesBodies(name)                                  ? Role::mover
 											      : Role::other;
 		if (role == Role::self) here = k;
 		order.push_back({ engines[k].get(), engines[k]->dead, role });
@@ -52,6 +65,22 @@ void EngineOrder::check(const std::vector<shared_ptr<Engine>>& engines, const En
 	m_checked = std::move(order);
 }
 
+void EngineOrder::checkMotions(const BodyContainer& bodies, int dim) const
+{
+	for (const Entry& entry : m_checked) {
+		const auto* mover = entry.role == Role::mover && !entry.dead ? dynamic_cast<const PartialEngine*>(entry.engine) : nullptr;
+		if (!mover) continue;
+		const unsigned needed = dim == 3 ? 7 : 3;
+		for (const int id : mover->ids) {
+			const Body* body = id >= 0 && std::size_t(id) < bodies.body.size() ? bodies.body[std::size_t(id)].get() : nullptr;
+			if (!body || !dynamic_cast<const MpmState*>(body->state.get()) || (body->state->blockedDOFs & needed) == needed) continue;
+			throw std::runtime_error("O.bodies[" + std::to_string(id) + "].state.blockedDOFs: " + mover->getClassName()
+						 + " moves this material point, whose motion is not prescribed: set blockedDOFs = '" + (dim == 3 ? "xyz" : "xy")
+						 + "', and the material follows it");
+		}
+	}
+}
+
 bool EngineOrder::hasContacts() const
 {
 	return std::any_of(m_checked.begin(), m_checked.end(), [](const Entry& entry) { return entry.role == Role::loop && !entry.dead; });
@@ -68,6 +97,7 @@ bool EngineOrder::checkClocks(bool setsStep) const
 			case Role::stepper: stepper = static_cast<const TimeStepper*>(checked.engine)->active ? k : stepper; break;
 			case Role::newton: newton = k; break;
 			case Role::loop: loop = k; break;
+			case Role::mover:
 			case Role::other: break;
 		}
 	}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <core/BodyContainer.hpp>
 #include <core/Engine.hpp>
 #include <vector>
 
@@ -20,11 +21,14 @@ public:
 	grains by different steps, since a contact's impulses on the two would then differ. */
 	bool checkClocks(bool setsStep) const;
 
+	/* Throws if an engine sets the velocity of a material point that is free to follow the material. dim: axes of the analysis. */
+	void checkMotions(const BodyContainer& bodies, int dim) const;
+
 	/* Whether contacts are computed. */
 	bool hasContacts() const;
 
 private:
-	enum class Role { other, self, stepper, newton, loop };
+	enum class Role { other, self, stepper, newton, loop, mover };
 	struct Entry { // of O.engines at the last check
 		const Engine* engine;
 		bool          dead;

@@ -86,6 +86,11 @@ mpm::Law lawOf(const Material& material)
 	require(elastic->density > 0 && std::isfinite(elastic->density), name, "density", elastic->density, "give a density > 0 [kg/m3]");
 	law.density = elastic->density;
 	law.elastic = mpm::Hooke(elastic->young, elastic->poisson);
+	if (const auto* rough = dynamic_cast<const FrictMat*>(&material)) {
+		require(rough->frictionAngle >= 0 && rough->frictionAngle < 1.57, name, "frictionAngle", rough->frictionAngle,
+			"give the angle of friction of contacts, from 0 to below 1.57 [rad]");
+		law.frictionAngle = rough->frictionAngle;
+	}
 	if (const auto* boucWen = dynamic_cast<const BoucWenMat*>(&material))
 		law.model = modelOf(*boucWen, name);
 	else if (const auto* j2 = dynamic_cast<const J2Mat*>(&material))

@@ -68,6 +68,8 @@ void MpmEngine::step()
 	readBodies();
 	if (m_points->count() == 0) return; // the last ones have been erased
 	checkValues();
+	m_order.checkMotions(*scene->bodies, mpm::dimension(m_points->runtime.solver->analysis()));
+	checkPrescribed();
 	const bool stepper = m_order.checkClocks(timeStepSafety > 0);
 	timeStepSafety > 0 ? adaptStep(control, stepper) : checkStep(control, stepper);
 	checkContinuity(control);
@@ -83,8 +85,9 @@ void MpmEngine::step()
 	for (std::size_t w = 0; w < walls.size(); ++w) {
 		const mpm::Wall& wall = m_points->runtime.walls[w];
 		for (int d = 0; d < 3; ++d)
-			walls[w]->force[d] = wall.force[std::size_t(d)];
-		wallsLeft[w] = walls[w]->origin += scene->dt * walls[w]->velocity;
+			walls[w]->force[d] = wall.force[std::size_t(d)], walls[w]->torque[d] = wall.torque[std::size_t(d)];
+		walls[w]->move(scene->dt);
+		wallsLeft[w] = walls[w]->origin;
 	}
 }
 
@@ -209,17 +212,18 @@ void MpmEngine::prepareWalls(int dim, bool axisymmetric)
 		if (!walls[w]) refuse(self, "walls[" + std::to_string(w) + "]", "None", "give an MpmWall");
 		kernelWalls[w] = walls[w]->toKernel(w, dim);
 		for (std::size_t v = 0; v < w; ++v) {
-			const mpm::Wall &a = kernelWalls[v], &b = kernelWalls[w];
-			if (a.axis != b.axis) continue;
-			require(a.side != b.side, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+			if (!walls[v]->extent.empty() || !walls[w]->extent.empty()) continue;
+			const Real cosine = walls[v]->normal.normalized().dot(walls[w]->normal.normalized());
+			require(cosine < 1 - 1e-12, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
 				"two walls face the same way; give one wall a side");
-			require((b.position - a.position) * a.side > 0, self, "walls", "walls " + std::to_string(v) + " and " + std::to_string(w),
+			require(cosine > -1 + 1e-12 || (walls[w]->origin - walls[v]->origin).dot(walls[v]->normal) > 0, self, "walls",
+				"walls " + std::to_string(v) + " and " + std::to_string(w),
 				"two walls face each other with no room between them; normals point into the material");
 		}
 	}
 	bool inner = !axisymmetric;
 	for (const mpm::Wall& wall : kernelWalls) {
-		if (!axisymmetric || wall.axis != 0) continue;
+		if (!axisymmetric || !wall.mirrors() || wall.axis != 0) continue;
 		inner = inner || wall.side > 0;
 		require(wall.position > 0 || (wall.position == 0 && wall.side > 0 && wall.kind == mpm::Wall::Kind::slip), self, "walls",
 			"a wall normal to x at x = " + mpm::number(wall.position),
@@ -300,6 +304,26 @@ void MpmEngine::checkPoints(mpm::Analysis kind) const
 				mpm::number(points.position[2][p]) + ", " + mpm::number(points.velocity[2][p]),
 				"in a plane analysis points lie at z = 0 and stay there; set z and the velocity along it to 0, or choose analysis = '3d'");
 	}
+	for (std::size_t f = 0; f < walls.size(); ++f)
+		for (std::size_t c = 0; c < walls.size(); ++c)
+			if (walls[f]->kind == "fixed" && walls[c]->kind == "friction") checkCorner(f, c);
+}
+
+/* A bond holds what it touches: where it meets a contact, no law of friction can act. */
+void MpmEngine::checkCorner(std::size_t fixed, std::size_t contact) const
+{
+	const mpm::Points& points = m_points->points;
+	const auto         near   = [&](const MpmWall& wall, std::size_t p) {
+                const Vector3r r(Vector3r(points.position[0][p], points.position[1][p], points.position[2][p]) - wall.origin), n(wall.normal.normalized());
+                const Real     height = r.dot(n), reach = wall.extent.empty() ? std::numeric_limits<Real>::infinity() : wall.extent[0];
+                return std::abs(height) < .6 * points.size[p] && (r - height * n).norm() < reach;
+	};
+	for (std::size_t p = 0; p < points.count(); ++p)
+		if (near(*walls[fixed], p) && near(*walls[contact], p))
+			refuse(self, "walls", "walls " + std::to_string(fixed) + " and " + std::to_string(contact),
+				"a body touches the fixed wall and the friction wall in their corner: the one holds what would slide along the other; make "
+				"both of "
+				"one kind, or end the friction wall before the corner by its extent");
 }
 
 /* Cells may be stretched between walls, and walls may move. */
@@ -319,6 +343,15 @@ void MpmEngine::checkValues()
 	const std::string fault = mpm::nonFiniteValue(m_points->points);
 	if (!fault.empty()) throw std::runtime_error("MpmEngine: " + fault + ": the saved scene is damaged, or its last step has failed; load an earlier one");
 	m_valuesDue = false;
+}
+
+/* A motion that is prescribed for every point leaves nothing to solve. */
+void MpmEngine::checkPrescribed() const
+{
+	const auto& fixed = m_points->points.prescribedDofs;
+	const auto  all   = std::uint8_t((1 << m_points->points.displacementIncrement.size()) - 1);
+	if (fixed.empty() || !std::all_of(fixed.begin(), fixed.end(), [all](std::uint8_t bits) { return (bits & all) == all; })) return;
+	refuse("O.bodies", "blockedDOFs", "all translations of all material points", "the motion of every point is prescribed; leave some of them free");
 }
 
 /* The stable step is another one than that which has been found. */

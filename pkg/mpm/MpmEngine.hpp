@@ -80,9 +80,11 @@ private:
 	Attached         attach();
 	void             checkKinematics(mpm::Analysis kind);
 	void             checkValues();
+	void             checkPrescribed() const;
 	void             forgetStep();
 	bool             stretches(mpm::Analysis kind) const;
 	void             checkPoints(mpm::Analysis kind) const;
+	void             checkCorner(std::size_t fixed, std::size_t contact) const;
 	void             checkGimp() const;
 	void             planFilter(mpm::StepControl& control);
 	bool             stiffnessChanged(const mpm::StepControl& control);

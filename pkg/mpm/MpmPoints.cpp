@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MpmPoints.hpp"
+#include "BadInput.hpp"
 #include "Buffers.hpp"
 #include "Materials.hpp"
 #include "MpmState.hpp"
@@ -406,12 +407,13 @@ py::object MpmPoints::append(
 	if (!material) throw std::invalid_argument("MpmPoints.append: material = None: give a material of O.materials");
 	const DoubleBuffer position(columns["position"]), velocity(columns["velocity"]), volume(columns["volume"]), mass(columns["mass"]),
 		size(columns["size"]), depth(columns["depth"]);
-	const bool                    stressed = columns.has_key("stress");
-	std::unique_ptr<DoubleBuffer> stress;
+	const bool                    stressed = columns.has_key("stress"), curved = columns.has_key("reach");
+	std::unique_ptr<DoubleBuffer> stress, reach;
+	if (curved) reach = std::make_unique<DoubleBuffer>(columns["reach"]);
 	if (stressed) stress = std::make_unique<DoubleBuffer>(columns["stress"]);
 	const std::size_t n = volume.size();
 	if (position.size() != 3 * n || velocity.size() != 3 * n || mass.size() != n || size.size() != n || depth.size() != n
-		|| (stressed && stress->size() != 9 * n))
+		|| (stressed && stress->size() != 9 * n) || (curved && reach->size() != n))
 		throw std::invalid_argument("MpmPoints.append: the arrays differ in their number of points; call mpm.fill or mpm.points");
 	constexpr std::size_t chunk = 4096; // points between two looks at signals
 
@@ -458,6 +460,7 @@ py::object MpmPoints::append(
 		if (bodies) states[k]->pointId = id;
 		points.append(id, int(index), x, v, mass.data()[k], volume.data()[k], size.data()[k], depth.data()[k]);
 		if (label > 0) points.group.resize(points.count()), points.group.back() = label;
+		if (curved) points.reach.resize(points.count()), points.reach.back() = reach->data()[k];
 		if (points.energies.started) points.energies.external -= .5 * mass.data()[k] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 		ids.append(id);
 	}
@@ -610,6 +613,24 @@ void MpmPoints::takeInitialStress(mpm::Analysis kind)
 		points.energies.elastic += elastic, points.energies.hardening += hardening, points.energies.external -= elastic + hardening;
 	}
 	points.initialStress.clear();
+}
+
+Vector3r MpmPoints::reaction(py::object ids)
+{
+	const std::lock_guard<std::mutex> lock(mutex);
+	Vector3r                          sum = Vector3r::Zero();
+	for (py::ssize_t k = 0, n = py::len(ids); k < n; ++k) {
+		const int         id = py::extract<int>(ids[k]);
+		const std::size_t p  = indexOf(id);
+		if (points.prescribedDofs.empty() || !points.prescribedDofs[p])
+			refuse("mpm.reaction", "ids", id,
+				"the motion of this point is not prescribed, or has not been before the last step; set blockedDOFs of its body");
+		const auto at = std::lower_bound(points.reactions.begin(), points.reactions.end(), mpm::SurfaceForce { id, 0, {}, {} });
+		if (at == points.reactions.end() || at->point != id) continue;
+		for (int d = 0; d < 3; ++d)
+			sum[d] -= at->force[std::size_t(d)];
+	}
+	return sum;
 }
 
 py::dict MpmPoints::drive(const shared_ptr<Material>& material, py::object strain, bool freeXX, bool freeYY, bool freeZZ)

@@ -6,6 +6,7 @@
 #include "SavedBy.hpp"
 #include "kernel/Continuity.hpp"
 #include "kernel/solver/Solver.hpp"
+#include <boost/serialization/array.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
 #include <core/Material.hpp>
@@ -34,6 +35,10 @@ template <class Archive> void serialize(Archive& archive, yade::mpm::Energies& e
 	archive& make_nvp("dissipation", e.dissipation) & make_nvp("external", e.external) & make_nvp("damping", e.damping);
 	archive& make_nvp("walls", e.walls) & make_nvp("started", e.started);
 }
+template <class Archive> void serialize(Archive& archive, yade::mpm::SurfaceForce& f, const unsigned int)
+{
+	archive& make_nvp("point", f.point) & make_nvp("other", f.other) & make_nvp("force", f.force) & make_nvp("slip", f.slip);
+}
 /* The columns under their own names; no displacementIncrement is pending when a scene is saved, forces are YADE's. */
 template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Points& points)
 {
@@ -43,7 +48,8 @@ template <class Archive> void serializeColumns(Archive& archive, yade::mpm::Poin
 	archive& make_nvp("thickness", points.thickness) & make_nvp("position", points.position) & make_nvp("velocity", points.velocity);
 	archive& make_nvp("stress", points.stress) & make_nvp("internal", points.internal) & make_nvp("deformation", points.deformation);
 	archive& make_nvp("thicknessStretch", points.thicknessStretch) & make_nvp("dissipation", points.dissipation);
-	archive& make_nvp("freeStrain", points.freeStrain);
+	archive& make_nvp("freeStrain", points.freeStrain) & make_nvp("reach", points.reach);
+	archive& make_nvp("contactForces", points.contactForces) & make_nvp("reactions", points.reactions);
 	archive& make_nvp("inContact", points.inContact) & make_nvp("contactVelocity", points.contactVelocity);
 	archive& make_nvp("energies", points.energies) & make_nvp("upcoming", points.upcoming);
 }
@@ -140,8 +146,8 @@ public:
 	void takeInitialStress(mpm::Analysis analysis);
 
 	/* For py/mpm: adds points, described by arrays of N rows of doubles under these names: position, velocity (3 numbers a row), volume, mass, size,
-	 * depth (thickness, 0 of a 3D point, minus the circumference of a ring) and, if given, stress (9), and a body for each unless bodies is false, with
-	 * YADE's mask and colour where they are not None. group: its number, or its name where that is not empty. Returns their ids. Signals are
+	 * depth (thickness, 0 of a 3D point, minus the circumference of a ring) and, if given, stress (9) and reach, and a body for each unless bodies is
+	 * false, with YADE's mask and colour where they are not None. group: its number, or its name where that is not empty. Returns their ids. Signals are
 	 * handled before any point is made. */
 	::boost::python::object append(::boost::python::dict columns, const shared_ptr<Material>& material, int group, const std::string& groupName,
 		bool bodies, ::boost::python::object mask, ::boost::python::object color);
@@ -154,6 +160,8 @@ public:
 	void loadFaces(mpm::Analysis analysis, Real time);
 	/* For py/mpm: Cauchy stress (buffer of N x 9 doubles) of the points with these ids. */
 	void setStress(::boost::python::object ids, ::boost::python::object stress);
+	/* For py/mpm: sum of the forces that the material exerts on the points with these ids, whose motion is prescribed [N]. */
+	Vector3r reaction(::boost::python::object ids);
 	/* For py/mpm: one material point through a path of strains (buffer of N x 9 doubles), some normal components stress-free. */
 	static ::boost::python::dict drive(const shared_ptr<Material>& material, ::boost::python::object strain, bool freeXX, bool freeYY, bool freeZZ);
 	/* For py/mpm: (bytes, dtype, shape) of one quantity, points in the order they were made in. */
@@ -191,6 +199,7 @@ public:
 		.def("array", &MpmPoints::array, "Raw bytes and shape of one quantity; :yref:`mpm.array` calls it.")
 		.def("drive", &MpmPoints::drive, "History of one point as raw bytes; :yref:`mpm.drive` calls it.").staticmethod("drive")
 		.def("version", &mpm::version, "Version of the plugin, e.g. '1.0.0'; mpm.__version__ shows it.").staticmethod("version")
+		.def("reaction", &MpmPoints::reaction, "Force on prescribed points; :yref:`mpm.reaction` calls it.")
 		.def("__len__", &MpmPoints::count)
 		.def("__repr__", &MpmPoints::text)
 		.def("__str__", &MpmPoints::text)

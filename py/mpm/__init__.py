@@ -21,6 +21,7 @@ import yade.wrapper
 
 if hasattr(yade, 'mpmRefusal'): raise ImportError(yade.mpmRefusal)
 
+from .contact import reaction, wall
 from .driver import PointHistory, drive
 from .load import traction
 from .mesh import readMesh
@@ -29,7 +30,8 @@ from .surface import readStl
 from .view import color
 
 __version__ = yade.wrapper.MpmPoints.version()
-__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'readMesh', 'readStl', 'setStress', 'traction']
+__all__ = ['PointHistory', 'array', 'color', 'criticalTimeStep', 'drive', 'fill', 'points', 'reaction', 'readMesh', 'readStl', 'setStress',
+	'traction', 'wall']
 
 
 def __dir__(): return __all__

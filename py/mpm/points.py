@@ -45,7 +45,10 @@ def fill(region, spacing=None, material=None, thickness=None, velocity=(0, 0, 0)
 		each side, as :yref:`MpmEngine` fits the grid's between two walls.
 	:param origin: with 'gauss': a node of the grid [m], where the region's lower corner is none; the cells are those of this grid, cut by the
 		box, and pieces shorter than a quarter of a cell are joined to their neighbour
-	:param group: name, or number from 1 to 255, of the group of the points; ``mpm.array('group')`` has the numbers, 0 for none
+	:param group: name, or number from 1 to 255, of the body that the points belong to; ``mpm.array('group')`` has the numbers, 0 for none.
+		Points of one group, of any number of calls, are one continuum. Points of different groups, points without a group being one more,
+		move independently: they meet by contact, with the friction of the smaller frictionAngle of their materials, and part freely.
+		Groups may touch at the start; the first step raises an error, with the depth, where they overlap by more than a quarter of the spacing.
 	:param stress: initial Cauchy stress [Pa], tension positive: a 3x3 tensor, or a function of the position (a Vector3) that returns one
 	:param int mask: :yref:`Body.mask` of the bodies
 	:param color: colour of the bodies, three numbers in [0, 1]
@@ -66,15 +69,19 @@ def fill(region, spacing=None, material=None, thickness=None, velocity=(0, 0, 0)
 	if origin is not None: origin = vector(call, 'origin', origin, 'a node of the grid, %d finite coordinates [m]' % len(lower), len(lower))
 	_affordable(region, (upper - lower)/spacing, spacing)
 
+	reach = None
 	if placement == 'uniform':
 		axes = [quadrature.uniformAxis(a, b, spacing) for a, b in zip(lower, upper)]
 		position, measure = quadrature.product(*zip(*axes))
 		if inside is not None:
 			kept = quadrature.insideOf(inside, position)
+			reach = quadrature.reachInside(inside, kept, [a for a, _ in axes], spacing) if kept.any() else None
 			position, measure = position[kept], measure[kept]
 	else:
 		edges = [quadrature.cellEdges(a, b, cellSize, None if origin is None else origin[d], inside is None) for d, (a, b) in enumerate(zip(lower, upper))]
-		if inside is None: position, measure = quadrature.product(*zip(*[quadrature.gaussAxis(e, points) for e in edges]))
+		if inside is None:
+			position, measure = quadrature.product(*zip(*[quadrature.gaussAxis(e, points) for e in edges]))
+			if len(position): reach = quadrature.reachOfBox(position, lower, [e[-1] for e in edges], cellSize/points)
 		else: position, measure = quadrature.gaussInside(inside, edges, points)
 	if len(position) == 0:
 		raise ValueError('mpm.fill: region = %r: no point lies inside it; choose a spacing smaller than %g m or check the region%s'
@@ -84,7 +91,7 @@ def fill(region, spacing=None, material=None, thickness=None, velocity=(0, 0, 0)
 	if plane: position = numpy.column_stack((position, numpy.zeros(len(position))))
 	depth = -2*math.pi*position[:, 0] if axisymmetric else numpy.full(len(position), float(thickness or 0))
 	size = None if placement == 'gauss' else spacing if (numpy.ptp(measure) == 0 and all(w[0] == spacing for _, w in axes)) else None
-	return _append(call, position, velocity, measure*abs(depth) if plane else measure, depth, size, None, material, bodies, group, stress, mask, color)
+	return _append(call, position, velocity, measure*abs(depth) if plane else measure, depth, size, None, material, bodies, group, stress, mask, color, reach)
 
 
 def points(position, volume, material, velocity=None, stress=None, bodies=True, group=None, thickness=None, axisymmetric=False, density=None, mask=None,
@@ -330,7 +337,7 @@ def _affordable(region, counts, spacing):
 			'choose a larger spacing or a smaller region' % (spacing, region, count, memory))
 
 
-def _append(caller, position, velocity, volume, depth, size, density, material, bodies, group, stress, mask, color):
+def _append(caller, position, velocity, volume, depth, size, density, material, bodies, group, stress, mask, color, reach=None):
 	"""Hands new points to the scene: all of them, or none."""
 	material = _material(material, caller)
 	n, plane = len(position), bool(depth[0] != 0)
@@ -348,6 +355,7 @@ def _append(caller, position, velocity, volume, depth, size, density, material, 
 	if size is None: size = numpy.sqrt(volume/numpy.abs(depth)) if plane else numpy.cbrt(volume)
 	columns = {'position': position, 'velocity': velocity, 'volume': volume, 'mass': (material.density if density is None else density)*volume,
 		'size': numpy.broadcast_to(size, (n,)), 'depth': depth}
+	if reach is not None and reach.any(): columns['reach'] = reach
 	if stress is not None: columns['stress'] = _stresses(caller, stress, position)
 	try: return _points(create=True).append({k: numpy.ascontiguousarray(v, dtype=float) for k, v in columns.items()}, material, 0 if name or group is None else int(group), name, bool(bodies), None if mask is None else int(mask), color)
 	except ValueError as fault: raise ValueError('%s: %s' % (caller, fault)) from None

@@ -69,6 +69,56 @@ def insideOf(predicate, places):
 	return numpy.fromiter((predicate(x, 0) for x in candidates), bool, len(places))
 
 
+def reachInside(predicate, kept, axes, spacing):
+	"""Distance (N,) from the points of a lattice that a predicate contains to its surface, 0 inside and for a box that the lattice fits.
+
+	kept: which points of the whole lattice the predicate contains. The distance is looked for from the outer points along the normal,
+	which the missing neighbours give, and along the axes without a neighbour, to 0.004 of the spacing.
+	"""
+	dim = len(axes)
+	grid = numpy.pad(kept.reshape([len(a) for a in axes]), 2)
+	inner = tuple(slice(2, -2) for _ in axes)
+	shifted = lambda offset: grid[tuple(slice(2 + o, n - 2 + o) for o, n in zip(offset, grid.shape))]
+	offsets = numpy.array(numpy.meshgrid(*[[-2, -1, 0, 1, 2]]*dim, indexing='ij')).reshape(dim, -1).T
+	outer, normal = numpy.zeros(grid[inner].shape, bool), numpy.zeros(grid[inner].shape + (dim,))
+	for offset in offsets:
+		if not offset.any(): continue
+		missing = ~shifted(offset)
+		if abs(offset).max() == 1: outer |= missing
+		normal += missing[..., None]*(offset/(offset @ offset))
+	outer = (outer & grid[inner]).reshape(-1)
+	places = product(axes, axes)[0][outer]
+	least = numpy.full(len(places), 1.5)  # spacings
+	directions = [(normal.reshape(-1, dim)[outer], numpy.ones(len(places), bool))]
+	for d in range(dim):
+		for sign in -1, 1:
+			direction = numpy.zeros(dim)
+			direction[d] = sign
+			directions.append((numpy.broadcast_to(direction, places.shape), ~shifted(direction.astype(int)).reshape(-1)[outer]))
+	for direction, tried in directions:
+		length = numpy.sqrt((direction**2).sum(axis=1))
+		tried = tried & (length > 0)
+		if not tried.any(): continue
+		start, step = places[tried], direction[tried]/length[tried, None]*spacing
+		low, high = numpy.zeros(len(start)), numpy.full(len(start), 1.5)
+		high[insideOf(predicate, start + 1.5*step)] = numpy.inf  # no surface that way
+		found = numpy.isfinite(high)
+		for _ in range(9):
+			middle = .5*(low[found] + high[found])
+			within = insideOf(predicate, start[found] + middle[:, None]*step[found])
+			low[found], high[found] = numpy.where(within, middle, low[found]), numpy.where(within, high[found], middle)
+		least[tried] = numpy.minimum(least[tried], .5*(low + high))
+	reach = numpy.zeros(len(kept))
+	if (abs(least - .5) > .01).any(): reach[outer] = numpy.where(least < 1.5, least*spacing, 0)
+	return reach[kept]
+
+
+def reachOfBox(position, lower, upper, size):
+	"""Distance (N,) from the outermost Gauss points of a box to its faces, 0 inside."""
+	distance = numpy.minimum(position - lower, upper - position).min(axis=1)
+	return numpy.where(distance < .5*size, distance, 0)
+
+
 def gaussInside(predicate, edges, count):
 	"""Gauss points of the cells that lie in a predicate; of cells that its surface cuts, the equal parts, count an axis, whose centre lies in it.
 

@@ -19,9 +19,9 @@ template <int dim> bool sortAll(TileGrid<dim>& grid, Points& points, const Bases
 /* Every point in the tile of its base and in one tile; the blocks that the tiles write to, and no others. */
 template <int dim> void expectSorted(const TileGrid<dim>& grid, const Points& points, const Bases<dim>& bases)
 {
-	std::size_t                       next = 0;
-	std::vector<std::array<int, dim>> wanted;
-	std::array<std::size_t, 1 << dim> seen {};
+	std::size_t                                   next = 0;
+	std::vector<typename TileGrid<dim>::BlockKey> wanted;
+	std::array<std::size_t, 1 << dim>             seen {};
 	for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
 		const auto& tile = grid.tiles()[t];
 		ASSERT_EQ(tile.begin, next);
@@ -39,8 +39,8 @@ template <int dim> void expectSorted(const TileGrid<dim>& grid, const Points& po
 			auto block = tile.index;
 			for (int d = 0; d < dim; ++d)
 				block[d] += c >> d & 1;
-			ASSERT_TRUE(grid.blocks()[std::size_t(tile.blocks[c])] == block);
-			wanted.push_back(block);
+			ASSERT_TRUE(grid.blocks()[std::size_t(tile.blocks[c])].index == block);
+			wanted.push_back({ tile.group, block });
 		}
 	}
 	ASSERT_EQ(next, points.count());

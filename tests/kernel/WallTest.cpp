@@ -254,7 +254,7 @@ TEST(WallTest, ContactPushesAndNeverPulls)
 			s.start(Analysis::uniaxial, shape, h);
 			const double before   = s.momentum()[0];
 			double       greatest = 0, pull = 0;
-			for (int k = 0; k < 1200; ++k) { // 0.6 m to go at 1 m/s, 0.2 s in contact, and away
+			while (s.control.time < 1.5) { // 0.6 m to go at 1 m/s, 0.2 s in contact, and away
 				s.step();
 				const double force = -side * s.walls[0].force[0]; // pressing: positive
 				greatest = std::max(greatest, force), pull = std::max(pull, -force);
@@ -264,7 +264,8 @@ TEST(WallTest, ContactPushesAndNeverPulls)
 			EXPECT_GT(greatest, .8 * sigma);
 			EXPECT_LT(greatest, 1.6 * sigma);
 			EXPECT_LT(pull, .02 * sigma);
-			EXPECT_NEAR(-s.momentum()[0] / before, 1, .05);
+			EXPECT_GT(-s.momentum()[0] / before, .9) << "thrown back, less the waves that the impact leaves";
+			EXPECT_LT(-s.momentum()[0] / before, 1);
 			EXPECT_EQ(s.walls[0].force[0], 0) << "it has left";
 			for (double x : s.points.position[0])
 				EXPECT_GT(side * x, 0);

@@ -12,7 +12,7 @@
 
 namespace yade::mpm {
 
-/* Where the grid lies: node i of an axis is at origin + i cell. Walls lie on nodes; xiMin and xiMax are theirs, or infinite. */
+/* Where the grid lies: node i of an axis is at origin + i cell. Mirror walls lie on nodes; xiMin and xiMax are theirs, or infinite. */
 template <int dim> struct Geometry {
 	std::array<double, dim> origin {}, cell {}, xiMin {}, xiMax {};
 
@@ -21,7 +21,7 @@ template <int dim> struct Geometry {
 	double xi(int axis, double x) const { return (x - origin[axis]) / cell[axis]; }
 };
 
-/* Lays the grid through the walls. Between two walls of one axis the cells are stretched to fit a whole number: cellSize
+/* Lays the grid through the walls that mirror it. Between two walls of one axis the cells are stretched to fit a whole number: cellSize
 is then nominal, the true size within 1/(2n) of it for n cells. */
 template <int dim> Geometry<dim> makeGeometry(double cellSize, const std::vector<Wall>& walls)
 {
@@ -30,7 +30,7 @@ template <int dim> Geometry<dim> makeGeometry(double cellSize, const std::vector
 	for (int d = 0; d < dim; ++d) {
 		const Wall *lower = nullptr, *upper = nullptr;
 		for (const Wall& wall : walls)
-			if (wall.axis == d) (wall.side > 0 ? lower : upper) = &wall;
+			if (wall.mirrors() && wall.axis == d) (wall.side > 0 ? lower : upper) = &wall;
 		g.cell[d]   = cellSize;
 		g.origin[d] = lower ? lower->position : upper ? upper->position : 0;
 		g.xiMin[d]  = lower ? 0 : -infinity;

@@ -60,7 +60,7 @@ std::string faultOf(const Points& points, std::size_t materials)
 				lengths("internal", points.internal, n), lengths("deformation", points.deformation, n),
 				optional("thicknessStretch", points.thicknessStretch.size(), n), optional("dissipation", points.dissipation.size(), n),
 				optional("freeStrain", points.freeStrain.size(), n), optional("prescribedDofs", points.prescribedDofs.size(), n),
-				optional("inContact", points.inContact.size(), n), optional("group", points.group.size(), n),
+				optional("inContact", points.inContact.size(), n), optional("group", points.group.size(), n), optional("reach", points.reach.size(), n),
 				number("initialStress", points.initialStress.size(), { 0, 6 }), lengths("initialStress", points.initialStress, n),
 				number("contactVelocity", points.contactVelocity.size(), { points.inContact.empty() ? 0 : dim }),
 				lengths("contactVelocity", points.contactVelocity, n));
@@ -75,6 +75,8 @@ std::string faultOf(const Points& points, std::size_t materials)
 	std::vector<int> ids = points.id;
 	std::sort(ids.begin(), ids.end());
 	if (const auto twice = std::adjacent_find(ids.begin(), ids.end()); twice != ids.end()) return "two points have the id " + std::to_string(*twice);
+	for (const auto& [name, forces] : { std::make_pair("contactForces", &points.contactForces), std::make_pair("reactions", &points.reactions) })
+		if (!std::is_sorted(forces->begin(), forces->end())) return std::string(name) + " are not in the order of the points' ids";
 	return "";
 }
 
@@ -119,16 +121,21 @@ std::string nonFiniteValue(const Points& points)
                 for (std::size_t p = 0; p < column.size() && fault.empty(); ++p)
                         if (!std::isfinite(column[p])) fault = name + " of material point " + std::to_string(points.id[p]) + " is " + mpm::number(column[p]);
 	};
-	for (const auto& [name, column] :
-		{ std::make_pair("mass", &points.mass), std::make_pair("volume0", &points.volume0), std::make_pair("size", &points.size),
-			std::make_pair("thickness", &points.thickness), std::make_pair("thicknessStretch", &points.thicknessStretch),
-			std::make_pair("dissipation", &points.dissipation), std::make_pair("freeStrain", &points.freeStrain) })
+	for (const auto& [name, column] : { std::make_pair("mass", &points.mass), std::make_pair("volume0", &points.volume0),
+		     std::make_pair("size", &points.size), std::make_pair("thickness", &points.thickness),
+		     std::make_pair("thicknessStretch", &points.thicknessStretch), std::make_pair("dissipation", &points.dissipation),
+		     std::make_pair("freeStrain", &points.freeStrain), std::make_pair("reach", &points.reach) })
 		look(name, *column);
 	for (const auto& [name, columns] :
 		{ std::make_pair("position", &points.position), std::make_pair("velocity", &points.velocity), std::make_pair("stress", &points.stress),
 			std::make_pair("internal", &points.internal), std::make_pair("deformation", &points.deformation) })
 		for (std::size_t k = 0; k < columns->size(); ++k)
 			look(std::string(name) + "[" + std::to_string(k) + "]", (*columns)[k]);
+	for (const auto* forces : { &points.contactForces, &points.reactions })
+		for (const SurfaceForce& f : *forces)
+			for (std::size_t d = 0; d < 3 && fault.empty(); ++d)
+				if (!std::isfinite(f.force[d]) || !std::isfinite(f.slip[d]))
+					fault = "a force on material point " + std::to_string(f.point) + " is not finite";
 	return fault;
 }
 

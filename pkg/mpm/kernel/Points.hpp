@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,13 +31,22 @@ struct Energies {
 	}
 };
 
+/* A force on a point that the next step starts from, kept by id: points change their places. */
+struct SurfaceForce {
+	int                   point = 0, other = 0; // ids: of the point, and of the wall or group that it is in contact with
+	std::array<double, 3> force {}, slip {};    // on the point [N]; elastic part of the slip [m]
+
+	bool operator<(const SurfaceForce& o) const { return point != o.point ? point < o.point : other < o.other; }
+};
+
 struct Traction;
 
 /* The material points of a scene, as a structure of arrays: the authoritative state. SI units.
 
 Columns that a scene does not need stay empty: force (no bodies), internal (no law with internal variables),
 thicknessStretch (no thinning), dissipation (no energies), freeStrain (no such law), group (no groups), initialStress (none, or taken over by stress),
-prescribedDofs (no prescribed motion), inContact, contactVelocity, spin, torque (no contacts).
+prescribedDofs (no prescribed motion), inContact, contactVelocity, spin, torque (no contacts with bodies of YADE), reach (no curved body),
+contactForces (no contacts in place), reactions (no prescribed motion).
 */
 struct Points {
 	std::vector<int>          id;              // of the point: its body's, or negative where it has none
@@ -60,6 +70,9 @@ struct Points {
 
 	std::vector<Traction*> tractions; // loads on faces, of whoever holds them; made anew before each step
 
+	Column                    reach;                    // distance from the point to the surface of its body [m]; 0: half its size
+	std::vector<SurfaceForce> contactForces, reactions; // of the last step: of contacts in place, and on prescribed points; by point
+
 	std::size_t generation = 0; // grows whenever points change their place in the arrays
 
 	std::size_t count() const { return id.size(); }
@@ -76,6 +89,7 @@ struct Points {
 		visit(thicknessStretch);
 		visit(dissipation);
 		visit(freeStrain);
+		visit(reach);
 	}
 	template <class Visitor> void forEachIndexColumn(Visitor&& visit)
 	{
@@ -91,6 +105,7 @@ struct Points {
 	{
 		id.push_back(id_), material.push_back(material_);
 		if (!group.empty()) group.push_back(0);
+		if (!reach.empty()) reach.push_back(0);
 		for (Column& column : initialStress)
 			column.push_back(std::numeric_limits<double>::quiet_NaN());
 		mass.push_back(mass_), volume0.push_back(volume_), size.push_back(size_), thickness.push_back(thickness_);
@@ -116,6 +131,7 @@ struct Points {
 		if (freeNormal || !freeStrain.empty()) freeStrain.resize(n, 0.);
 		if (energy || !dissipation.empty()) dissipation.resize(n, 0.);
 		if (!prescribedDofs.empty()) prescribedDofs.resize(n, 0);
+		if (!reach.empty()) reach.resize(n, 0.);
 		if (!inContact.empty()) prepareContacts();
 	}
 	/* Gives every point what points in contact need. */

@@ -33,37 +33,47 @@ public:
 	using Index = std::array<int, dim>;
 	struct Tile {
 		Index                    index;
+		int                      group;      // of its points: a field of their own
 		std::size_t              begin, end; // its points
 		std::array<int, corners> blocks;     // bit d of the position: one further along axis d
 	};
 
-	const std::vector<Tile>&  tiles() const { return m_tiles; }
-	const std::vector<int>&   colour(int c) const { return m_colours[c]; }
-	const std::vector<Index>& blocks() const { return m_blocks; }
-	std::size_t               nodeCount() const { return m_blocks.size() * nodes; }
+	struct BlockKey {
+		int   group;
+		Index index;
+		bool  operator<(const BlockKey& o) const { return group != o.group ? group < o.group : index < o.index; }
+		bool  operator==(const BlockKey& o) const { return group == o.group && index == o.index; }
+		bool  operator!=(const BlockKey& o) const { return !(*this == o); }
+	};
 
-	/* Position of a node in the node arrays, or -1 where the grid has none. */
-	std::ptrdiff_t find(const Index& node) const
+	const std::vector<Tile>&     tiles() const { return m_tiles; }
+	const std::vector<int>&      colour(int c) const { return m_colours[c]; }
+	const std::vector<BlockKey>& blocks() const { return m_blocks; }
+	std::size_t                  nodeCount() const { return m_blocks.size() * nodes; }
+
+	/* Position of a group's node in the node arrays, or -1 where the grid has none. */
+	std::ptrdiff_t find(const Index& node, int group = 0) const
 	{
-		Index block;
-		int   local = 0;
+		BlockKey key { group, {} };
+		Index&   block = key.index;
+		int      local = 0;
 		for (int d = dim - 1; d >= 0; --d) {
 			block[d] = node[d] >> log2Width;
 			local    = local * width + (node[d] & (width - 1));
 		}
-		const auto at = std::lower_bound(m_blocks.begin(), m_blocks.end(), block);
-		return at == m_blocks.end() || *at != block ? -1 : (at - m_blocks.begin()) * nodes + local;
+		const auto at = std::lower_bound(m_blocks.begin(), m_blocks.end(), key);
+		return at == m_blocks.end() || *at != key ? -1 : (at - m_blocks.begin()) * nodes + local;
 	}
 
-	/* visit(index, position in the node arrays) for every node. */
+	/* visit(index, position in the node arrays, group) for every node. */
 	template <class Visit> void forEachNode(Visit&& visit) const
 	{
 		for (std::size_t b = 0; b < m_blocks.size(); ++b)
 			for (int local = 0; local < nodes; ++local) {
-				Index node = m_blocks[b];
+				Index node = m_blocks[b].index;
 				for (int d = 0, rest = local; d < dim; ++d, rest >>= log2Width)
 					node[d] = node[d] * width + (rest & (width - 1));
-				visit(node, std::ptrdiff_t(b) * nodes + local);
+				visit(node, std::ptrdiff_t(b) * nodes + local, m_blocks[b].group);
 			}
 	}
 
@@ -74,19 +84,20 @@ public:
 	template <class BaseOf, class IsKept> bool sort(Points& points, bool sortedBefore, int threads, BaseOf&& baseOf, IsKept&& isKept)
 	{
 		const std::size_t      count = points.count();
-		const std::vector<Run> runs  = findRuns(count, sortedBefore, threads, baseOf, isKept);
+		const std::vector<Run> runs  = findRuns(points, sortedBefore, threads, baseOf, isKept);
 		m_tiles.clear();
 		for (const Run& run : runs)
-			if (m_tiles.empty() || m_tiles.back().index != run.index) m_tiles.push_back({ run.index, 0, 0, {} });
+			if (m_tiles.empty() || !sameTile(m_tiles.back(), run)) m_tiles.push_back({ run.index, run.group, 0, 0, {} });
 		auto before = [](const Tile& a, const Tile& b) { // colour by colour, as forEachTile() goes through memory
 			const int ca = colourOf(a.index), cb = colourOf(b.index);
-			return ca != cb ? ca < cb : a.index < b.index;
+			return ca != cb ? ca < cb : a.index != b.index ? a.index < b.index : a.group < b.group;
 		};
 		std::sort(m_tiles.begin(), m_tiles.end(), before);
-		m_tiles.erase(std::unique(m_tiles.begin(), m_tiles.end(), [](const Tile& a, const Tile& b) { return a.index == b.index; }), m_tiles.end());
+		m_tiles.erase(std::unique(m_tiles.begin(), m_tiles.end(), sameTile<Tile, Tile>), m_tiles.end());
 		std::vector<std::size_t> tileOf; // a run
 		for (const Run& run : runs) {
-			tileOf.push_back(std::size_t(std::lower_bound(m_tiles.begin(), m_tiles.end(), Tile { run.index, 0, 0, {} }, before) - m_tiles.begin()));
+			tileOf.push_back(std::size_t(
+				std::lower_bound(m_tiles.begin(), m_tiles.end(), Tile { run.index, run.group, 0, 0, {} }, before) - m_tiles.begin()));
 			m_tiles[tileOf.back()].end += run.end - run.begin;
 		}
 		for (std::size_t t = 1; t < m_tiles.size(); ++t)
@@ -133,7 +144,9 @@ public:
 private:
 	std::vector<Tile>                     m_tiles;
 	std::array<std::vector<int>, corners> m_colours;
-	std::vector<Index>                    m_blocks;
+	std::vector<BlockKey>                 m_blocks;
+
+	template <class A, class B> static bool sameTile(const A& a, const B& b) { return a.group == b.group && a.index == b.index; }
 
 	static int colourOf(const Index& index)
 	{
@@ -145,15 +158,17 @@ private:
 	struct Run { // of points that follow each other and share a tile
 		std::size_t begin, end;
 		Index       index;
+		int         group;
 	};
 	/* The points as runs, in the order of the arrays. */
 	template <class BaseOf, class IsKept>
-	std::vector<Run> findRuns(std::size_t count, bool sortedBefore, int threads, const BaseOf& baseOf, const IsKept& isKept) const
+	std::vector<Run> findRuns(const Points& points, bool sortedBefore, int threads, const BaseOf& baseOf, const IsKept& isKept) const
 	{
 		constexpr std::size_t length = 4096; // of the parts that threads take
+		const std::size_t     count  = points.count();
 		const std::size_t     number = sortedBefore ? m_tiles.size() : (count + length - 1) / length;
 		auto                  scan   = [&](std::size_t k) {
-                        if (sortedBefore && isKept(k)) return std::vector<Run> { { m_tiles[k].begin, m_tiles[k].end, m_tiles[k].index } };
+                        if (sortedBefore && isKept(k)) return std::vector<Run> { { m_tiles[k].begin, m_tiles[k].end, m_tiles[k].index, m_tiles[k].group } };
                         const std::size_t begin = sortedBefore ? m_tiles[k].begin : k * length;
                         const std::size_t end   = sortedBefore ? m_tiles[k].end : std::min(begin + length, count);
                         std::vector<Run>  runs;
@@ -161,7 +176,8 @@ private:
                                 Index index = baseOf(p);
                                 for (int& i : index)
                                         i >>= log2Width;
-                                if (runs.empty() || runs.back().index != index) runs.push_back({ p, p, index });
+                                const Run next { p, p, index, points.group.empty() ? 0 : points.group[p] };
+                                if (runs.empty() || !sameTile(runs.back(), next)) runs.push_back(next);
                                 runs.back().end = p + 1;
                         }
                         return runs;
@@ -188,10 +204,10 @@ private:
 				index[d] += corner >> d & 1;
 			return index;
 		};
-		std::vector<Index> blocks;
+		std::vector<BlockKey> blocks;
 		for (const Tile& tile : m_tiles)
 			for (int c = 0; c < corners; ++c)
-				blocks.push_back(neighbour(tile.index, c));
+				blocks.push_back({ tile.group, neighbour(tile.index, c) });
 		std::sort(blocks.begin(), blocks.end());
 		blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
 		const bool changed = blocks != m_blocks;
@@ -202,7 +218,8 @@ private:
 			Tile& tile = m_tiles[t];
 			m_colours[colourOf(tile.index)].push_back(int(t));
 			for (int c = 0; c < corners; ++c)
-				tile.blocks[c] = int(std::lower_bound(m_blocks.begin(), m_blocks.end(), neighbour(tile.index, c)) - m_blocks.begin());
+				tile.blocks[c] = int(std::lower_bound(m_blocks.begin(), m_blocks.end(), BlockKey { tile.group, neighbour(tile.index, c) })
+						     - m_blocks.begin());
 		}
 		return changed;
 	}

@@ -20,13 +20,9 @@ in its own frame. */
 template <int dim> struct WallMirror {
 	struct Column { // of nodes through the wall: on the plane, one behind it, its mirror image; -1 where there is none
 		std::ptrdiff_t          plane, ghost, mirror;
-		bool                    active;    // whether the wall acts here; a contact decides at every step
-		bool                    outside;   // behind a wall that is mirrored before
-		double                  reaction;  // normal force of the material on a contact, pressing > 0
 		std::array<double, dim> ghostMass; // when it was folded: walls that come later fold on it
 	};
 	std::size_t           wall;
-	bool                  friction;
 	std::array<bool, dim> odd;
 	std::vector<Column>   columns;
 
@@ -36,26 +32,21 @@ template <int dim> struct WallMirror {
 	/* Of every node of the grid's blocks that lies on the plane, or beside it where there is none on the plane. */
 	WallMirror(const TileGrid<dim>& grid, const Geometry<dim>& g, const std::vector<Wall>& walls, std::size_t w)
 	    : wall(w)
-	    , friction(walls[w].kind == Wall::Kind::friction)
 	{
 		const Wall& self = walls[w];
 		for (int d = 0; d < dim; ++d)
 			odd[d] = d == self.axis || self.kind == Wall::Kind::fixed;
 		const int plane = planeNode(g, self);
-		grid.forEachNode([&](const typename TileGrid<dim>::Index& node, std::ptrdiff_t) {
+		grid.forEachNode([&](const typename TileGrid<dim>::Index& node, std::ptrdiff_t, int group) {
 			if (node[self.axis] != plane && node[self.axis] != plane - self.side) return;
 			auto at = [&](int k) {
 				auto n       = node;
 				n[self.axis] = plane + k * self.side;
-				return grid.find(n);
+				return grid.find(n, group);
 			};
 			const bool onPlane = node[self.axis] == plane;
 			if (!onPlane && at(0) >= 0) return; // its column is counted at the plane
-			bool outside = false;
-			for (const Wall& other : walls)
-				if (other.axis != self.axis && (other.kind != Wall::Kind::friction || &other < &self))
-					outside = outside || (node[other.axis] - planeNode(g, other)) * other.side < 0;
-			columns.push_back({ at(0), at(-1), at(1), !friction, outside, 0, {} });
+			columns.push_back({ at(0), at(-1), at(1), {} });
 		});
 	}
 
@@ -89,14 +80,14 @@ template <int dim> struct WallMirror {
 	void setPlane(const Wall& self, Motion motion, NodeVector<dim>& field) const
 	{
 		for (const Column& c : columns)
-			for (int d = 0; d < dim && c.active && c.plane >= 0; ++d)
+			for (int d = 0; d < dim && c.plane >= 0; ++d)
 				if (odd[d]) field[d][c.plane] = motion == Motion::velocity ? self.velocity[d] : 0;
 	}
 	/* ... and those behind it their images. */
 	void setImages(const Wall& self, Motion motion, NodeVector<dim>& field) const
 	{
 		for (const Column& c : columns) {
-			if (!c.active || c.ghost < 0) continue;
+			if (c.ghost < 0) continue;
 			for (int d = 0; d < dim; ++d) {
 				const double w     = motion == Motion::velocity && odd[d] ? self.velocity[d] : 0;
 				const double image = c.mirror >= 0 ? field[d][c.mirror] : w;
@@ -108,7 +99,7 @@ template <int dim> struct WallMirror {
 	void clearBehind(NodeVector<dim>& field) const
 	{
 		for (const Column& c : columns)
-			for (int d = 0; d < dim && c.active; ++d) {
+			for (int d = 0; d < dim; ++d) {
 				if (c.ghost >= 0) field[d][c.ghost] = 0;
 				if (c.plane >= 0 && odd[d]) field[d][c.plane] = 0;
 			}

@@ -15,29 +15,12 @@ public:
 		using Index = typename TileGrid<dim>::Index;
 		m_nodes.clear();
 		auto depth = [&](const Index& node, const Wall& wall) { return (node[wall.axis] - WallMirror<dim>::planeNode(g, wall)) * wall.side; };
-		std::vector<std::vector<std::pair<std::ptrdiff_t, int>>> feet(mirrors.size()); // columns of contacts, by their node on the plane
-		for (std::size_t b = 0; b < mirrors.size(); ++b)
-			for (std::size_t c = 0; mirrors[b].friction && c < mirrors[b].columns.size(); ++c)
-				feet[b].push_back({ mirrors[b].columns[c].plane, int(c) });
-		for (auto& f : feet)
-			std::sort(f.begin(), f.end());
-		grid.forEachNode([&](const Index& node, std::ptrdiff_t at) {
-			Node r { at, {}, 0, {}, {}, {} };
+		grid.forEachNode([&](const Index& node, std::ptrdiff_t at, int) {
+			Node r { at, {}, 0, {}, {}, {}, {} };
 			for (std::size_t b = 0; b < mirrors.size() && r.count < 2 * dim; ++b) {
 				const Wall& wall = walls[mirrors[b].wall];
 				if (std::abs(depth(node, wall)) > 1) continue;
-				Cover cover { int(mirrors[b].wall), int(b), -1 };
-				if (mirrors[b].friction) {
-					Index foot      = node; // of the column, in front of the other walls
-					foot[wall.axis] = WallMirror<dim>::planeNode(g, wall);
-					for (const Wall& other : walls)
-						if (other.axis != wall.axis && depth(foot, other) < 0)
-							foot[other.axis] = 2 * WallMirror<dim>::planeNode(g, other) - foot[other.axis];
-					const std::pair<std::ptrdiff_t, int> key { grid.find(foot), 0 };
-					const auto                           column = std::lower_bound(feet[b].begin(), feet[b].end(), key);
-					if (key.first >= 0 && column != feet[b].end() && column->first == key.first) cover.column = column->second;
-				}
-				r.covers[r.count++] = cover;
+				r.covers[r.count++] = int(mirrors[b].wall);
 			}
 			if (r.count > 0) m_nodes.push_back(r);
 		});
@@ -53,15 +36,13 @@ public:
 				r.mass[d] = (*mass[d])[r.node], r.force[d] = force[d][r.node];
 	}
 	/* ... and what the walls take of it; unfold(field) writes the images of an acceleration. */
-	template <class Unfold>
-	void add(
-		std::vector<Wall>& walls, const std::vector<WallMirror<dim>>& mirrors, const NodeMass<dim>& mass, const NodeVector<dim>& force, Unfold&& unfold)
+	template <class Unfold> void add(std::vector<Wall>& walls, const NodeMass<dim>& mass, const NodeVector<dim>& force, Unfold&& unfold)
 	{
 		for (const Node& r : m_nodes)
 			for (int d = 0; d < dim; ++d)
 				m_acceleration[d][r.node] = (*mass[d])[r.node] > 0 ? force[d][r.node] / (*mass[d])[r.node] : 0;
 		unfold(m_acceleration);
-		addToWalls(walls, mirrors, [this](const Node& r, int d) { return r.force[d] - r.mass[d] * m_acceleration[d][r.node]; });
+		addToWalls(walls, [this](const Node& r, int d) { return r.force[d] - r.mass[d] * m_acceleration[d][r.node]; });
 	}
 	/* Momentum of the nodes alone, before it is mirrored ... */
 	void keepMomentum(const NodeVector<dim>& momentum)
@@ -71,40 +52,46 @@ public:
 				r.momentum[d] = momentum[d][r.node];
 	}
 	/* ... and `rate` times what the walls have taken of it, where it became `velocity` (doc/method.md). */
-	void addMomentumLoss(std::vector<Wall>& walls, const std::vector<WallMirror<dim>>& mirrors, const NodeVector<dim>& velocity, double rate) const
+	void addMomentumLoss(std::vector<Wall>& walls, const NodeVector<dim>& velocity, double rate) const
 	{
-		addToWalls(walls, mirrors, [&](const Node& r, int d) { return rate * (r.momentum[d] - r.mass[d] * velocity[d][r.node]); });
+		addToWalls(walls, [&](const Node& r, int d) { return rate * (r.momentum[d] - r.mass[d] * velocity[d][r.node]); });
+	}
+
+	/* Increments of the nodes before impulses act in front of the walls ... */
+	void keepIncrements(const NodeVector<dim>& increment)
+	{
+		for (Node& r : m_nodes)
+			for (int d = 0; d < dim; ++d)
+				r.increment[d] = increment[d][r.node];
+	}
+	/* ... and what the walls take of the impulses (before they are mirrored) that have made of them what they are. */
+	void addImpulses(std::vector<Wall>& walls, const NodeVector<dim>& impulse, const NodeVector<dim>& increment, double dt) const
+	{
+		addToWalls(walls, [&](const Node& r, int d) { return (impulse[d][r.node] - r.mass[d] * (increment[d][r.node] - r.increment[d])) / dt; });
 	}
 
 private:
-	struct Cover { // of a node by a wall: the node lies on the plane or beside it
-		int wall;
-		int mirror, column; // whose contact decides, of a friction wall; -1: none
-	};
 	struct Node {
-		std::ptrdiff_t             node;
-		std::array<Cover, 2 * dim> covers;
-		int                        count;
-		std::array<double, dim>    mass, force; // of the node alone, before it is mirrored
-		std::array<double, dim>    momentum;    // likewise
+		std::ptrdiff_t           node;
+		std::array<int, 2 * dim> covers; // walls: the node lies on the plane or beside it
+		int                      count;
+		std::array<double, dim>  mass, force;         // of the node alone, before it is mirrored
+		std::array<double, dim>  momentum, increment; // likewise
 	};
 	std::vector<Node> m_nodes;
 	NodeVector<dim>   m_acceleration;
 
-	/* A component of force(node, d) is taken by the wall normal to it, else by a fixed wall, else by friction. */
-	template <class Force> void addToWalls(std::vector<Wall>& walls, const std::vector<WallMirror<dim>>& mirrors, Force&& force) const
+	/* A component of force(node, d) is taken by the wall normal to it, else by a fixed wall. */
+	template <class Force> void addToWalls(std::vector<Wall>& walls, Force&& force) const
 	{
 		for (const Node& r : m_nodes) {
 			std::array<int, dim> taker, rank {};
 			taker.fill(-1);
 			for (int k = 0; k < r.count; ++k) {
-				const Cover& cover   = r.covers[k];
-				const Wall&  wall    = walls[cover.wall];
-				const bool   contact = wall.kind == Wall::Kind::friction;
-				const bool   acts    = !contact || (cover.column >= 0 && mirrors[cover.mirror].columns[cover.column].active);
+				const Wall& wall = walls[std::size_t(r.covers[k])];
 				for (int d = 0; d < dim; ++d) {
-					const int mine = acts ? (d == wall.axis ? 4 : wall.kind == Wall::Kind::fixed ? 3 : contact ? 2 : 0) : 1;
-					if (mine > rank[d]) rank[d] = mine, taker[d] = cover.wall;
+					const int mine = d == wall.axis ? 2 : wall.kind == Wall::Kind::fixed ? 1 : 0;
+					if (mine > rank[d]) rank[d] = mine, taker[d] = r.covers[k];
 				}
 			}
 			for (int d = 0; d < dim; ++d)

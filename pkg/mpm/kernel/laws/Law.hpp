@@ -32,7 +32,8 @@ namespace detail {
 
 /* A material as the kernel uses it: density, Hooke's law, and a law with its parameters. */
 struct Law {
-	double density = 0; // [kg/m3]
+	double density       = 0; // [kg/m3]
+	double frictionAngle = 0; // of contacts between bodies of points [rad]
 	Hooke  elastic;
 	Model  model;
 

@@ -4,6 +4,7 @@
 #include "ContactPoints.hpp"
 #include "MassCorrection.hpp"
 #include "NodalUpdate.hpp"
+#include "PrescribedPoints.hpp"
 
 namespace yade::mpm {
 
@@ -82,7 +83,7 @@ public:
 		d.constraints.afterUpdate(m_damping, Motion::increment);
 	}
 	/* Work of the step's forces, when the points have taken the new velocities. */
-	void addWork(D& d, const StepControl& control, const AddedWallWork& added, NodeVector<dim>& scratch)
+	void addWork(D& d, const StepControl& control, const AddedWallWork& added, const PrescribedPoints<D>& prescribed, NodeVector<dim>& scratch)
 	{
 		const double          dt = control.dt;
 		Points&               P  = d.transfer.points;
@@ -111,6 +112,7 @@ public:
 			}
 		for (const Energies& tile : atPoints)
 			work.add(tile);
+		work.walls -= .5 * prescribed.workBeyond(d, u);
 		if (correctsMass(control)) work.walls += .5 * added.correction;
 		work.walls += .5 * added.pic, work.damping -= .5 * added.pic;
 		P.energies.add(P.upcoming);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "ContactInPlace.hpp"
 #include "EnergyBalance.hpp"
 #include "FaceLoads.hpp"
 #include "NullSpaceFilter.hpp"
@@ -61,7 +62,7 @@ public:
 		if (!isLaid()) m_shown = nodes();
 		m_control.time = control.time; // of what layGrid() says
 		layGrid();
-		return StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass);
+		return std::min(StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass), contactTimeStep());
 	}
 	double crossingRate() const override
 	{
@@ -73,7 +74,7 @@ public:
 		return crossing;
 	}
 
-	void        pointsChanged() override { m_sorted = m_known = false; }
+	void        pointsChanged() override { m_sorted = m_known = false, m_contacts.pointsChanged(); }
 	std::size_t gridBytes() const override { return m_d.fields.bytes(); }
 	Analysis    analysis() const override { return m_analysis; }
 	int         components() const override { return S::N; }
@@ -85,7 +86,7 @@ public:
 		const auto& fields = m_d.fields;
 		const auto& g      = m_d.transfer.geometry;
 		if (fields.mass.size() != m_d.transfer.grid.nodeCount()) return shown;
-		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at) {
+		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at, int) {
 			const std::size_t i = std::size_t(at);
 			if (fields.mass[i] <= fields.leastMass) return;
 			shown.mass.push_back(fields.mass[i]);
@@ -109,16 +110,18 @@ private:
 	StepControl              m_control, m_stressControl; // of the current step, and of the one whose stress update is due
 	std::vector<TileReport>  m_reports;
 	EnergyBalance<D>         m_balance;
+	ContactInPlace<D>        m_contacts;
+	PrescribedPoints<D>      m_prescribed;
 	AddedWallWork            m_added;
 	FaceLoads<D>             m_faces;
-	NodeVector<dim>          m_roundTrip;            // scratch of the mass correction
-	std::optional<GridNodes> m_shown;                // nodes of the last step, once the grid has been laid anew
-	std::vector<Wall::Kind>  m_kinds;                // of the walls, as the constraints have been built for
-	double                   m_wallHalfSize = 0;     // of the point whose shape functions they have been built for
-	bool                     m_laid         = false; // blocks, fields and constraints are those of the geometry
-	bool                     m_known        = false; // points are in the tiles of the grid, unless a report marks a tile as left
-	bool                     m_sorted       = false; // all of them are
-	bool                     m_stressDue    = false;
+	NodeVector<dim>          m_impulses;          // of contacts and prescribed points near mirrors, before they are mirrored
+	NodeVector<dim>          m_roundTrip;         // scratch of the mass correction
+	std::optional<GridNodes> m_shown;             // nodes of the last step, once the grid has been laid anew
+	std::vector<Wall::Kind>  m_kinds;             // of the walls, as the constraints have been built for
+	bool                     m_laid      = false; // blocks, fields and constraints are those of the geometry
+	bool                     m_known     = false; // points are in the tiles of the grid, unless a report marks a tile as left
+	bool                     m_sorted    = false; // all of them are
+	bool                     m_stressDue = false;
 
 	Points&       points() { return m_d.transfer.points; }
 	const Points& points() const { return m_d.transfer.points; }
@@ -134,6 +137,7 @@ private:
 			m_d.transfer, [this](std::size_t t) { moveTile<true>(t); }, m_d.fields.momentum); // 15, second mapping
 		velocityFromMomentum(m_d, m_d.fields.momentum, m_d.fields.velocity, Motion::velocity);
 		if (correctsMass(m_control)) correctVelocities(m_d, m_control, m_roundTrip, m_reports);
+		m_prescribed.project(m_d);
 		endMotion();
 		lap("nodes to points and back");
 		deferStress(); // 16
@@ -202,9 +206,15 @@ private:
 	{
 		NodeFields<S> sums = m_d.fields;
 		clear(m_d.transfer, sums.force);
-		m_d.constraints.afterSums(sums.masses(), sums.momentum, sums.force, m_control.dt);
+		m_d.constraints.afterSums(sums.masses(), sums.momentum, sums.force);
 		divideByMass(m_d.transfer, sums, sums.momentum, m_d.fields.velocity);
 		m_d.constraints.afterUpdate(m_d.fields.velocity, Motion::velocity);
+		if (points().prescribedDofs.empty()) return;
+		std::swap(m_d.fields.mass, sums.mass), std::swap(m_d.fields.radialMass, sums.radialMass); // the mirrored ones
+		m_prescribed.find(m_d, m_control);
+		m_prescribed.share(m_d);
+		m_prescribed.project(m_d);
+		std::swap(m_d.fields.mass, sums.mass), std::swap(m_d.fields.radialMass, sums.radialMass);
 	}
 	/* Eq. 14 with the options that act on the nodes. */
 	void updateVelocities()
@@ -215,12 +225,33 @@ private:
 		if (energies) m_balance.keepSums(m_d, m_control);
 		if (energies && faces) m_faces.spread(m_d, m_balance.external());
 		if (pic) m_d.constraints.keepMomentum(m_d.fields.momentum);
+		m_contacts.begin(m_d, m_control, m_laws, m_walls);
+		m_prescribed.begin(m_d, m_control);
 		updateNodes(m_d, m_control, energies ? m_balance.damping() : nullptr);
+		applyImpulses();
 		const double share = pic ? m_d.constraints.addMomentumLoss(velocityAtStart(m_d.fields), (1 - m_control.flip) / m_control.dt, m_control.dt) : 0;
 		if (energies) m_balance.keepMotion(m_d);
 		m_added = correctsMass(m_control) ? correctIncrements(m_d, m_control, m_roundTrip) : AddedWallWork {};
 		m_added.pic += share;
 		lap("nodes");
+	}
+	/* Contacts and prescribed points, after the update of the nodes. */
+	void applyImpulses()
+	{
+		auto&            fields  = m_d.fields;
+		const bool       mirrors = m_d.constraints.mirrors() && (m_contacts.acts() || m_prescribed.acts());
+		NodeVector<dim>* raw     = mirrors ? &m_impulses : nullptr;
+		if (mirrors) {
+			m_d.constraints.keepIncrements(fields.velocityIncrement);
+			for (Field& component : m_impulses)
+				component.assign(fields.mass.size(), 0);
+		}
+		m_contacts.finish(m_d, m_control, m_walls, raw);
+		m_prescribed.finish(m_d, m_control, raw);
+		if (!mirrors) return;
+		m_d.constraints.afterUpdate(fields.velocity, Motion::velocity);
+		m_d.constraints.afterUpdate(fields.velocityIncrement, Motion::increment);
+		m_d.constraints.addImpulses(m_impulses, fields.velocityIncrement, m_control.dt);
 	}
 	/* Eq. 15, with MUSL's second mapping where remap. */
 	template <bool remap> void moveTile(std::size_t t) { gridToPoints<remap>(m_d, m_control.dt, m_control.flip, t, m_reports[t]); }
@@ -228,9 +259,10 @@ private:
 	/* When the points have their new velocities: work of the forces, points in contact, filter. */
 	void endMotion()
 	{
-		if (m_control.trackEnergy) m_balance.addWork(m_d, m_control, m_added, m_roundTrip);
+		if (m_control.trackEnergy) m_balance.addWork(m_d, m_control, m_added, m_prescribed, m_roundTrip);
 		if (!points().tractions.empty()) m_faces.move(m_d, m_control.dt, m_control.largeStrain);
 		if (!points().inContact.empty()) m_d.transfer.forEachTile([this](std::size_t t) { moveContactPoints(m_d, m_control.dt, t, m_reports[t]); });
+		m_contacts.move(m_d, m_control.dt, m_reports);
 		if (m_control.filter > 0) filterVelocities(m_d, m_control);
 	}
 	void deferStress() { m_stressControl = m_control, m_stressDue = true; }
@@ -290,17 +322,26 @@ private:
 		m_known = true;
 		m_reports.assign(transfer.grid.tiles().size(), {});
 		m_balance.resize(transfer.grid.tiles().size());
-		const double r = P.count() ? transfer.halfSize(0, 0) : .5; // of the shape functions at the walls
-		if (!m_laid || r != m_wallHalfSize) {
+		if (!m_laid) {
 			m_d.fields.resize(transfer.grid.nodeCount());
-			double       N0[Shape::support], dN0[Shape::support];
-			const double base = std::floor(-Shape::shift(r));
-			Shape::evaluate(0, base, r, N0, dN0);
-			m_d.constraints.build(transfer.grid, geometry, N0[int(-base)], Shape::support > 2 ? N0[int(-base) - 1] : 0);
-			m_wallHalfSize = r;
-			m_laid         = true;
+			m_d.constraints.build(transfer.grid, geometry);
+			m_laid = true;
 		}
 		m_sorted = true;
+	}
+
+	/* Where bodies can come into contact: 1.2 h/c, c being the speed of dilatational waves. Bodies at rest, pressed, sliding and in
+	corners are stable up to 1.35 h/c, whatever the contact's stiffness (doc/method.md). */
+	double contactTimeStep() const
+	{
+		const bool walls = std::any_of(m_walls.begin(), m_walls.end(), [](const Wall& wall) { return !wall.mirrors(); });
+		if (!walls && points().group.empty()) return std::numeric_limits<double>::infinity();
+		double fastest = 0;
+		for (const Law& law : m_laws) {
+			const double nu = law.elastic.poisson;
+			fastest         = std::max(fastest, law.stiffnessBound() * law.elastic.young * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / law.density);
+		}
+		return 1.2 * *std::min_element(m_d.transfer.geometry.cell.begin(), m_d.transfer.geometry.cell.end()) / std::sqrt(fastest);
 	}
 
 	// ---- checks ------------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ where it speeds the node up and adds it where it slows it down; `lost`, where gi
 template <class D> void updateNodes(D& d, const StepControl& control, NodeVector<D::dim>* lost)
 {
 	auto& fields = d.fields;
-	d.constraints.afterSums(fields.masses(), fields.momentum, fields.force, control.dt);
+	d.constraints.afterSums(fields.masses(), fields.momentum, fields.force);
 	d.transfer.forEachNodeRange([&](std::size_t begin, std::size_t end) {
 		const double dt = control.dt, damping = control.damping, least = fields.leastMass;
 		for (int a = 0; a < D::dim; ++a) {

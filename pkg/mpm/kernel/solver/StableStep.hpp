@@ -32,7 +32,6 @@ public:
 		sums.mass.resize(m_nodes), sums.radialMass.resize(hasHoop<S> ? m_nodes : 0), sums.leastMass = d.fields.leastMass;
 		for (NodeVector<dim>* field : { &sums.momentum, &sums.force, &sums.velocity })
 			field->fill(Field(m_nodes));
-		d.constraints.releaseContacts();
 		auto masses = [&](std::size_t t) { pointsToGrid<Sums::motion>(d.transfer, sums, control, t); };
 		sumOverTiles(d.transfer, masses, sums.mass, sums.radialMass, sums.momentum);
 		d.constraints.afterSums(sums.masses());
@@ -78,7 +77,7 @@ private:
 	Vector startVector()
 	{
 		Vector start(dim * m_nodes);
-		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at) {
+		m_d.transfer.grid.forEachNode([&](const auto& node, std::ptrdiff_t at, int) {
 			double phase = 1;
 			for (std::size_t d = 0; d < std::size_t(dim); ++d)
 				phase += node[d] * (12.9898 + 65.2431 * double(d));

@@ -33,6 +33,18 @@ template <int dim, class Shape> struct Patch {
 		});
 	}
 
+	/* Place in the node arrays of a node of the patch. */
+	static std::ptrdiff_t nodeOf(const Tile& tile, int at)
+	{
+		int corner = 0, offset = 0;
+		for (int d = 0, stride = 1; d < dim; ++d, at /= extent, stride *= Grid::width) {
+			const int k = at % extent;
+			corner |= (k >> Grid::log2Width) << d;
+			offset += (k & (Grid::width - 1)) * stride;
+		}
+		return std::ptrdiff_t(tile.blocks[std::size_t(corner)]) * Grid::nodes + offset;
+	}
+
 private:
 	/* visit(offset in the patch, offset in the node arrays, length) for every run of nodes that is contiguous in both. */
 	template <class Visit> static void forEachRun(const Tile& tile, Visit&& visit)
