@@ -14,7 +14,7 @@ from common import *
 # the names that users rely on
 face = {
 	MpmEngine: 'cellSize analysis shape scheme flip gravity damping largeStrain walls',
-	MpmWall: 'origin normal kind friction velocity force',
+	MpmWall: 'origin normal kind friction velocity force extent along angularVelocity torque',
 	BoucWenMat: 'yieldStress n beta gamma tangentRatio tolerance',
 	MpmState: 'stress strain backStress F plasticStrain volume',
 }
@@ -45,7 +45,7 @@ for cls in ours:
 		check('%s has a docstring' % what, len(re.sub(':y[a-z]+:`[^`]*`', '', doc).strip()) > 10, doc)
 		kind = re.search(':yattrtype:`([^`]*)`', doc)
 		if isinstance(item, property) and (kind is None or kind.group(1) in numbers):
-			check('%s says its unit' % what, re.search(r'\[(-|m|m/s2?|m2|m3|s|Pa|N|J|kg|kg/m3|bytes|rad)\]', doc), doc)
+			check('%s says its unit' % what, re.search(r'\[(-|m|m/s2?|m2|m3|s|Pa|N|J|kg|kg/m3|bytes|rad|rad/s|Nm)\]', doc), doc)
 
 for name in mpm.__all__:
 	item = getattr(mpm, name)
