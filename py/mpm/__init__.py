@@ -11,8 +11,8 @@
 
 fill makes points of a region, points makes them from arrays, setStress gives them a stress to start with, traction loads a face; array
 looks at them, color shows them in the 3D view, criticalTimeStep says how far a step may go; drive takes a single point through strains
-(PointHistory); wall makes a wall for points and grains, reaction is the force on gripped points; readStl reads a surface to fill, readMesh a mesh. Classes: MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the
-materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
+(PointHistory), readStl reads a surface to fill, readMesh a mesh; wall makes a wall for points and grains, reaction is the force on
+gripped points. Classes: MpmEngine, MpmWall, MpmTraction, MpmState, MpmVtkRecorder, and the materials BoucWenMat, J2Mat, DruckerPragerMat. help() of any of them says more.
 
 Units are SI, tension is positive.
 """

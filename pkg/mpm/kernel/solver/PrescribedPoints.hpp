@@ -28,11 +28,12 @@ public:
 		for (std::size_t t = 0; t < tiles.size(); ++t)
 			for (std::size_t p = tiles[t].begin; p < tiles[t].end; ++p) {
 				if (!P.prescribedDofs[p]) continue;
-				Held       held { t, p, {}, {}, {}, {}, {}, {} };
+				Held       held { t, p, {}, {}, {}, {}, {}, {}, {} };
 				const auto at = std::lower_bound(P.reactions.begin(), P.reactions.end(), SurfaceForce { P.id[p], 0, {}, {} });
 				if (at != P.reactions.end() && at->point == P.id[p])
 					for (std::size_t a = 0; a < dim; ++a)
 						held.impulse[a] = P.prescribedDofs[p] >> a & 1 ? at->force[a] * control.dt : 0;
+				held.last = held.impulse;
 				m_points.push_back(held);
 			}
 	}
@@ -86,8 +87,8 @@ public:
 		}
 		std::sort(P.reactions.begin(), P.reactions.end());
 	}
-	/* Work of the reactions in a step [J] beyond that of the nodes' mean velocities u, which the points' motion has not: the second
-	mapping makes the reaction act on the material with the prescribed velocity itself. */
+	/* Work of the reactions in a step [J] beyond that of the nodes' mean velocities u: the second mapping strains the material with the
+	prescribed velocity itself. The reactions of the last step are in balance with the stress; a jump of the velocity is not among them. */
 	double workBeyond(const D& d, const NodeVector<dim>& u) const
 	{
 		const Points& P    = d.transfer.points;
@@ -95,7 +96,7 @@ public:
 		for (const Held& held : m_points) {
 			const V at = m_shares.velocity(held.range, u);
 			for (std::size_t a = 0; a < dim; ++a)
-				if (isHeld(d, held, a)) work += held.impulse[a] * (P.velocity[a][held.point] - at[a]);
+				if (isHeld(d, held, a)) work += held.last[a] * (P.velocity[a][held.point] - at[a]);
 		}
 		return work;
 	}
@@ -112,6 +113,7 @@ private:
 		std::size_t                      tile, point;
 		typename NodalShares<dim>::Range range;
 		V                                impulse; // of the step [Ns]
+		V                                last;    // of the last step
 		V                                step, residual, direction, image;
 	};
 	std::vector<Held> m_points;
