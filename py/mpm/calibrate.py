@@ -23,7 +23,7 @@ _BOUNDS = dict({name: (1e-9, _inf) for name in _POSITIVE}, poisson=(-.999, .4999
 _STRESSES = 'young', 'yieldStress', 'isotropicModulus', 'saturationStress', 'cohesion', 'tensionCutoff'
 _TOLERANCE = 1e-9  # of the law's integration, in the fit: differences need its digits
 _WIDTH = 1e-4  # of differences, over the scale of a parameter
-_LEAST = 1e-5  # singular value of the scaled, normalised derivatives that their differences can tell from 0
+_LEAST = 1e-5  # differences do not resolve smaller singular values of the scaled, normalised derivatives
 
 
 class Undetermined(ValueError):

@@ -56,10 +56,10 @@ void updateWithFreeNormals(const Hooke& C, Update&& update, const Pack<W>* strai
 			a = b, fa = fb = fe, phase = out;
 			forLanes<W>([&](int l) { width[l] = std::abs(fb[l]) / modulus; });
 		} else {
-			const double above = flat ? 1 : 0; // counts zero stress as positive
 			forLanes<W>([&](int l) {
-				const bool   go = phase == out ? outwards(l) : inwards(l), inner = go & (phase == in);
-				const double f      = above * (fe[l] >= -goal[l]) > 0 ? 2 * goal[l] + std::numeric_limits<double>::min() : fe[l];
+				const bool go = phase == out ? outwards(l) : inwards(l), inner = go & (phase == in);
+				// where the law carries no tension, zero stress counts as positive
+				const double f      = (flat & (fe[l] >= -goal[l])) ? 2 * goal[l] + std::numeric_limits<double>::min() : fe[l];
 				const bool   across = f * fb[l] < 0;
 				a[l]                = (inner & across) ? b[l] : a[l];
 				fa[l]               = inner ? (across ? fb[l] : .5 * fa[l]) : fa[l];

@@ -59,7 +59,7 @@ public:
 		if (points().count() == 0) return std::numeric_limits<double>::infinity();
 		finish();
 		if (!isLaid()) m_shown = nodes();
-		m_control.time = control.time; // of what layGrid() says
+		m_control.time = control.time; // layGrid() names it in its complaints
 		layGrid();
 		return StableStep<D>(m_d, m_laws, control).value(control.scheme, control.fullMass);
 	}
